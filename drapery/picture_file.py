@@ -51,7 +51,7 @@ def opened_picture(
     try:
         with warnings.catch_warnings(action="ignore"):
             _check_size(_webp_size(data), name, max_pixels, max_side)
-            image = Image.open(BytesIO(data), formats=formats)
+            image = Image.open(BytesIO(data), formats=list(formats))
             with image:
                 _check_size(image.size, name, max_pixels, max_side)
                 if image.format in ("JPEG", "MPO"):

@@ -78,8 +78,8 @@ class Options(TypedDict, total=False):
     facing: Facing | None
     view: str | View
     turntable: bool
-    size: tuple[int, int] | str
-    grid: tuple[int, int] | str
+    size: tuple[int, int]
+    grid: tuple[int, int]
     solver: SolverName | Solver
     fabric: FabricName | Fabric
     forces: Sequence[Force]

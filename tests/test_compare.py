@@ -77,9 +77,12 @@ def test_designs_differ_from_the_layer_that_differs(drapery: Run, tmp_path: Path
     designs = ("white creeper:lime border:black", "white creeper:lime border:red")
     code, out, _ = drapery("compare", *designs, *SMALL, "-o", target)
     assert code == 1
-    assert "from layer 2 (border, red) on" in out
+    assert "from layer 2 (border, red) in place of layer 2 (border, black) on" in out
     (pair,) = json.loads(target.read_text())["pairs"]
-    assert pair["changed"] > 100 and pair["from"] == "layer 2 (border, red)"
+    assert (
+        pair["changed"] > 100
+        and pair["from"] == "layer 2 (border, red) in place of layer 2 (border, black)"
+    )
 
 
 def test_tolerance_decides_the_exit_code(drapery: Run, tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
     *("aot", "jit_cache", "jit_calls", "kernel_sources"),
     *("lazy", "toml_text", "player_settings"),
-    *("user_files", "picture_file", "mesh_file", "mesh_headers"),
+    *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets", "match"}
@@ -49,6 +49,7 @@ ALLOWED: dict[str, set[str]] = {
     "user_files": {"errors"},
     "toml_text": {"errors", "user_files"},
     "picture_file": {"errors"},
+    "picture_pixels": {"errors"},
     "mesh_headers": {"errors", "picture_file"},
     "mesh_file": {"errors", "mesh", "mesh_headers", "user_files"},
     "assets": set(),

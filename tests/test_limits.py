@@ -177,12 +177,12 @@ def test_an_atlas_has_a_largest_size(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_compared_picture_has_a_largest_side(tmp_path: Path) -> None:
     pytest.importorskip("skimage")
-    from drapery.comparison.variants import _load
+    from drapery.comparison.picture import read_picture
 
     path = tmp_path / "long.png"
     Image.new("L", (16385, 1)).save(path)
     with pytest.raises(OptionError, match="16384"):
-        _load(path)
+        read_picture(path)
 
 
 @pytest.mark.parametrize("ending, name", [("csv", "TEXT"), ("jsonl", "TEXT"), ("yaml", "YAML")])

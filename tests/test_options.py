@@ -38,9 +38,7 @@ NUMBERS = [
 def test_the_table_the_settings_and_the_keywords_are_the_same() -> None:
     assert list(OPTIONS) == [field.name for field in fields(Settings)]
     assert {name: kind.__forward_arg__ for name, kind in Options.__annotations__.items()} == {
-        # A pair may be given as a text, but never is one in Settings.
-        field.name: f"{field.type} | str" if OPTIONS[field.name].parts else field.type
-        for field in fields(Settings)
+        field.name: field.type for field in fields(Settings)
     }
     assert {name: option.default for name, option in OPTIONS.items()} == {
         field.name: field.default for field in fields(Settings)
@@ -257,7 +255,11 @@ def test_many_unknown_names_are_refused_soon() -> None:
 def test_a_pair_is_a_text_in_python_too() -> None:
     settings = Settings(size="64x48", grid="5x9")  # type: ignore[arg-type]
     assert (settings.size, settings.grid) == ((64, 48), (5, 9))
-    assert draw(Banner("white"), size="8x6", grid="3x4", time=0.0).pixels.shape == (6, 8, 4)
+    assert draw(Banner("white"), **{"size": "8x6", "grid": "3x4", "time": 0.0}).pixels.shape == (
+        6,
+        8,
+        4,
+    )
     for name, option in OPTIONS.items():
         if option.parts:
             text = option.to_text(option.default)

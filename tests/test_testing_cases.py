@@ -91,3 +91,45 @@ def test_a_long_name_does_not_fill_the_message(drapery: Run, tmp_path: Path) -> 
     file = file_of(tmp_path, f'[[case]]\nname = "{"x" * 100_000}"\nwnid = 3\n')
     code, _, err = drapery("golden", "check", file)
     assert code == 2 and len(err) < 600
+
+
+TWO = """
+[[case]]
+name = "first"
+design = "red"
+packs = ["no-such-pack"]
+
+[[case]]
+name = "second"
+design = "blue"
+size = "32x40"
+"""
+
+
+def test_a_case_that_cannot_be_drawn_ends_itself_alone(drapery: Run, tmp_path: Path) -> None:
+    file, report = file_of(tmp_path, TWO), ("--report", tmp_path / "report")
+    code, out, err = drapery("golden", "update", file)
+    assert code == 2 and "wrote second" in out and "no-such-pack" in err
+    code, out, err = drapery("golden", "check", file, *report)
+    assert code == 2 and out.startswith("1 as before, 0 not, 1 cannot be checked")
+    assert err.splitlines()[-1].startswith("first: ")
+    (tmp_path / "goldens/second.png").unlink()
+    code, out, _ = drapery("golden", "check", file, *report)
+    assert code == 2 and "second: no golden at" in out and "0 as before, 1 not" in out
+    assert (tmp_path / "report/index.html").exists()
+
+
+def test_one_case_is_checked_by_its_name(drapery: Run, tmp_path: Path) -> None:
+    file, report = (
+        file_of(tmp_path, TWO.replace('packs = ["no-such-pack"]', "")),
+        tmp_path / "report",
+    )
+    code, out, _ = drapery("golden", "check", file, "--report", report)
+    assert code == 1 and "0 as before, 2 not" in out
+    assert "1 of 1 goldens written" in drapery("golden", "update", file, "--only", "second")[1]
+    code, out, _ = drapery("golden", "check", file, "--only", "second", "--report", report)
+    assert code == 0 and out.startswith("1 as before, 0 not; see ")
+    # What did not run keeps its entry.
+    assert [path.name[:10] for path in report.glob("*.failure.json")] == ["case-first"]
+    code, _, err = drapery("golden", "check", file, "--only", "third")
+    assert code == 2 and "there is no case 'third'; the first cases are first, second" in err

@@ -9,6 +9,7 @@ from PIL import Image
 from drapery.banner.design import Banner
 from drapery.banner.packs import open_packs
 from drapery.comparison.metrics import measure
+from drapery.comparison.picture import as_picture
 from drapery.comparison.tolerance import Tolerance
 from drapery.errors import OptionError
 from drapery.render.frame import Animation, Frame
@@ -16,10 +17,8 @@ from drapery.testing.explain import explain_change, layer_notes
 from drapery.testing.golden import (
     GoldenError,
     agrees,
-    as_frame,
     decode,
     encode,
-    stacked,
 )
 
 
@@ -31,7 +30,7 @@ def noise(seed: int, height: int = 12, width: int = 9) -> Frame:
 def test_a_golden_holds_the_picture_and_the_layers_exactly() -> None:
     frame, notes = noise(1), [{"name": "base, red", "face": "x"}]
     back, kept = decode(encode(frame, notes))
-    assert np.array_equal(back.pixels, frame.pixels)
+    assert np.array_equal(back.frames[0], frame.pixels)
     assert kept == notes
     assert encode(frame, notes) == encode(frame, notes)
 
@@ -44,8 +43,8 @@ def test_a_golden_holds_a_loop_and_the_layers_exactly() -> None:
     still = Animation((noise(1), noise(1), noise(2), noise(1)), 30)
     for picture in (loop(), still):
         back, kept = decode(encode(picture, [{"name": "base, red", "face": "x"}]))
-        assert isinstance(back, Animation) and back.fps == pytest.approx(picture.fps)
-        assert np.array_equal(stacked(back), stacked(picture))
+        assert back.delays == pytest.approx([1 / picture.fps] * len(picture))
+        assert np.array_equal(back.frames, [frame.pixels for frame in picture])
         assert kept == [{"name": "base, red", "face": "x"}]
         assert agrees(back, picture, Tolerance()) and decode(encode(picture))[1] is None
 
@@ -54,7 +53,7 @@ def test_a_changed_loop_is_explained() -> None:
     other = Animation((noise(0), noise(7), noise(2)), 12.5)
     assert not agrees(loop(), other, Tolerance(pixels=107))
     assert agrees(loop(), other, Tolerance(pixels=108))
-    assert explain_change(loop(), other).endswith("in 1 of 3 frames")
+    assert ", in frame 2, in columns 0 to 8" in explain_change(loop(), other)
     for changed, size in (
         (loop(2), "9x12, 2 frames at 12.5/s"),
         (loop(3, 10), "9x12, 3 frames at 10/s"),
@@ -83,17 +82,23 @@ def test_hidden_colours_do_not_count() -> None:
     assert measure(expected, actual).changed == 1
 
 
+def pixels(source: object) -> np.ndarray:
+    return as_picture(source).frames[0]
+
+
 def test_pictures_come_as_frames_images_and_arrays() -> None:
     frame = noise(3)
     grey = frame.pixels[..., 0]
-    assert as_frame(frame) is frame
-    assert np.array_equal(as_frame(Image.fromarray(frame.pixels)).pixels, frame.pixels)
-    assert np.array_equal(as_frame(frame.pixels).pixels, frame.pixels)
-    assert np.array_equal(as_frame(frame.pixels[..., :3]).pixels[..., 3], np.full((12, 9), 255))
-    assert np.array_equal(as_frame(grey).pixels[..., :3], np.stack([grey] * 3, -1))
-    for wrong in (np.zeros((4, 4, 4)), np.zeros((4, 4, 2), np.uint8), "a picture"):
+    assert np.array_equal(pixels(frame), frame.pixels)
+    assert np.array_equal(pixels(Image.fromarray(frame.pixels)), frame.pixels)
+    assert np.array_equal(pixels(frame.pixels), frame.pixels)
+    assert np.array_equal(pixels(frame.pixels[..., :3])[..., 3], np.full((12, 9), 255))
+    assert np.array_equal(pixels(grey)[..., :3], np.stack([grey] * 3, -1))
+    for wrong in (np.zeros((4, 4, 4)), np.zeros((4, 4, 2), np.uint8), None):
         with pytest.raises(OptionError, match="golden picture"):
-            as_frame(wrong)
+            as_picture(wrong)
+    with pytest.raises(OptionError, match="cannot be read"):
+        as_picture("a picture")
 
 
 def test_broken_goldens_are_named() -> None:
@@ -121,7 +126,14 @@ def test_other_dyes_and_counts_are_named() -> None:
     assert "layer 1 (creeper, lime) became (creeper, red)" in explain_change(
         noise(1), noise(2), before, dyed
     )
-    assert "1 layers became 2" in explain_change(noise(1), noise(2), before, more)
+    for first, second, what in ((before, more, "new"), (more, before, "gone")):
+        line = explain_change(noise(1), noise(2), first, second)
+        assert line.startswith(f"layer 2 (border, red) is {what}; 108 pixels differ")
+    # What remains is not said to have changed.
+    below = explain_change(
+        noise(1), noise(2), layer_notes(Banner.parse("white border:red"), packs), more
+    )
+    assert below.startswith("layer 1 (creeper, lime) is new; 108")
 
 
 def _shifted(face: str, down: int) -> str:

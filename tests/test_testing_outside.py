@@ -88,6 +88,7 @@ def test_create_pass_fail_report_update_pass(outside: tuple[Path, Pytest]) -> No
     assert {p.name.split(".")[1] for p in page.parent.glob("*.png")} == {
         "expected",
         "actual",
+        "panel",
         "difference",
     }
     assert kept.read_bytes() == before
@@ -101,7 +102,7 @@ def test_create_pass_fail_report_update_pass(outside: tuple[Path, Pytest]) -> No
 HARMS: dict[str, tuple[bytes | str | tuple[int, int], str]] = {
     "text": (b"not a picture", "not a readable PNG"),
     "empty": (b"", "not a readable PNG"),
-    "mode": ("L", "mode is L"),
+    "mode": ("L", "64 pixels differ, max 255"),
     "size": ((9, 8), "size changed from 9x8 to 8x8"),
 }
 

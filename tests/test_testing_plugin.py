@@ -49,7 +49,9 @@ def test_one(golden):
     code = Path(test).read_text(encoding="utf-8")
     Path(test).write_text(code.replace("20", "21"), encoding="utf-8")
     result = pytester.runpytest_inprocess()
-    result.stdout.fnmatch_lines(["golden 'a': 16 pixels differ, max 1, in 1 of 3 frames; see *"])
+    result.stdout.fnmatch_lines(
+        ["golden 'a': 16 pixels differ, max 1, in frame 2, in columns 0 to 3 of rows 0 to 3; see *"]
+    )
     page = (pytester.path / "drapery-report/index.html").read_text(encoding="utf-8")
     # Three pictures of the first golden; of the hashed one only the actual picture is known.
     assert page.count('data-frames="3"') == 4
@@ -115,7 +117,9 @@ def test_a_report_that_cannot_be_written_keeps_the_fault(pytester: pytest.Pytest
     (pytester.path / "drapery-report").write_text("a file in the way of the folder")
     result = pytester.runpytest_inprocess()
     result.assert_outcomes(failed=1)
-    result.stdout.fnmatch_lines(["golden 'a': 16 pixels differ, max 1; *drapery-report*"])
+    result.stdout.fnmatch_lines(
+        ["golden 'a': 16 pixels differ, max 1, in columns*; *drapery-report*"]
+    )
 
 
 def test_a_tolerance_out_of_range_is_refused_without_a_traceback(

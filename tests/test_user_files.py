@@ -12,7 +12,7 @@ from drapery import Banner, draw, read_designs
 from drapery.batch.keys import digest
 from drapery.batch.manifest import ManifestError, read_manifest
 from drapery.cloth import from_mesh, load_mesh
-from drapery.comparison.variants import _load
+from drapery.comparison.picture import read_picture as read_compared_picture
 from drapery.errors import DraperyError
 from drapery.garments import Garment, GarmentMesh, check_skin
 from drapery.garments.meshes import read_stiff_mesh
@@ -53,7 +53,7 @@ DOORS: dict[str, tuple[str, Callable[[Path], Any]]] = {
     "manifest": (".csv", read_manifest),
     "manifest in YAML": (".yaml", read_manifest),
     "picture": (".jpg", read_picture),
-    "compared picture": (".png", _load),
+    "compared picture": (".png", read_compared_picture),
     "digest": (".png", digest),
 }
 
@@ -91,7 +91,7 @@ def test_a_name_that_no_file_has_is_refused(name: str, door: str, tmp_path: Path
     refusal(read, tmp_path / f"{name}{ending}")
 
 
-@pytest.mark.parametrize("door", set(DOORS) - {"design", "design of a function", "digest"})
+@pytest.mark.parametrize("door", sorted({*DOORS} - {"design", "design of a function", "digest"}))
 def test_a_folder_is_refused(door: str, tmp_path: Path) -> None:
     ending, read = DOORS[door]
     path = tmp_path / f"folder{ending}"

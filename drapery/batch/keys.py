@@ -105,13 +105,16 @@ def code_version() -> str:
     return f"{version('drapery')}+{whole.hexdigest()[:16]}"
 
 
-def added_code(functions: Iterable[Callable[..., Any]], backend_name: str) -> dict[str, list[str]]:
+def added_code(
+    functions: Iterable[Callable[..., Any]], chosen: str | Callable[..., Any]
+) -> dict[str, list[str]]:
     """The code of other packages that draws a picture: by the name of each top-level package, the
     versions of its distributions and the hash of its files, so that an edit counts too.
 
-    functions: of the steps of its style. Raises BackendError or PackError.
+    functions: of the steps of its style. chosen: its backend, or the name of one. Raises
+    BackendError or PackError.
     """
-    used = [*functions, backend(backend_name)]
+    used = [*functions, backend(chosen) if isinstance(chosen, str) else chosen]
     packages = {_module_of(function).partition(".")[0] for function in used}
     return {name: _code_of(name) for name in sorted(packages - {"drapery"})}
 
@@ -145,6 +148,7 @@ def _own_files(node: Traversable, name: str) -> Iterator[tuple[str, Traversable]
 
 
 def _of_file(path: Path) -> str:
+    file: Any
     with open_user_file(path) as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 

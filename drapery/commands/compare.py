@@ -1,6 +1,7 @@
 """`drapery compare`: where designs, packs, layer modes, backends or pictures differ."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -37,8 +38,28 @@ def run(
     ] = None,
     tolerance: Annotated[int, typer.Option(help="Channel errors up to this do not count.")] = 0,
     pixels: Annotated[int, typer.Option(help="Number of pixels that may differ more.")] = 0,
+    ratio: Annotated[float, typer.Option(help="Share of the pixels that may differ more.")] = 0.0,
+    colour: Annotated[
+        float | None,
+        typer.Option(help="Only perceived differences above this count, 0 to 1; 0.1 is usual."),
+    ] = None,
+    antialiasing: Annotated[
+        bool, typer.Option(help="Whether pixels of smoothed edges count.")
+    ] = True,
+    ignore: Annotated[
+        list[str] | None,
+        typer.Option(metavar="X,Y,W,H", help="A box of pixels that does not count."),
+    ] = None,
+    mask: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="A picture whose bright pixels do not count."),
+    ] = None,
+    limit: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=VALUE", help="flip=0.05, ssim=0.98 or ciede2000=1 as a limit."),
+    ] = None,
     perceptual: Annotated[
-        bool, typer.Option("--perceptual", help="SSIM and FLIP as well (extra: compare).")
+        bool, typer.Option("--perceptual", help="SSIM, FLIP and CIEDE2000 (extra: compare).")
     ] = False,
     cost: Annotated[
         bool, typer.Option("--cost", help="Quads drawn and time for a frame as well.")
@@ -55,19 +76,31 @@ def run(
 
     Each --style is a picture of its own.
     """
-    from drapery.comparison import Tolerance, compare_variants, draw_variants
+    from drapery.comparison import (
+        Tolerance,
+        compare_variants,
+        draw_variants,
+        eight_bits,
+        painted,
+        read_picture,
+    )
     from drapery.settings import Settings
 
     for target in out or []:
         _check_target(target)
-    limits = Tolerance(tolerance, pixels)
+    limits = Tolerance(
+        *(tolerance, pixels, ratio, colour, antialiasing),
+        ignore=tuple(_box(text) for text in ignore or ()),
+        **_limits(limit or ()),
+    )
+    hidden = None if mask is None else painted(eight_bits(read_picture(mask).frames[0]))
     modes, backends, styles = layers.split(","), backend.split(","), words.pop("style") or ()
     first = {"layers": modes[0], "backend": backends[0]}
     settings = Settings(**o.options_of(words | first))
     reading = {name: words[name] for name in ("form", "number")}
     with compile_notice():
         chosen = draw_variants(subjects, settings, modes, backends, styles, **reading)
-        pairs = compare_variants(chosen, limits, perceptual=perceptual)
+        pairs = compare_variants(chosen, limits, mask=hidden, perceptual=perceptual)
         costs = {v.label: _cost(v) for v in chosen} if cost else {}
     for pair in pairs:
         print(pair.line())
@@ -76,6 +109,35 @@ def run(
     for target in out or []:
         _write(target, pairs, costs)
     raise typer.Exit(0 if all(pair.difference.agrees for pair in pairs) else 1)
+
+
+def _box(text: str) -> tuple[int, int, int, int]:
+    """Raises OptionError."""
+    from drapery.errors import OptionError
+
+    parts = text.split(",")
+    if len(parts) != 4 or not all(part.strip().isdecimal() and len(part) < 8 for part in parts):
+        raise OptionError(f"ignore {text[:40]!r} is not a box; write it like 10,20,64,32")
+    left, top, width, height = map(int, parts)
+    return left, top, width, height
+
+
+def _limits(texts: Sequence[str]) -> dict[str, Any]:
+    """Raises OptionError."""
+    from drapery.errors import OptionError
+
+    found = {}
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            name = ""
+        if name not in ("flip", "ssim", "ciede2000"):
+            raise OptionError(
+                f"limit {text[:40]!r} is not known; write flip=0.05, ssim=0.98 or ciede2000=1"
+            )
+    return found
 
 
 def _cost(variant: "Variant") -> dict[str, float]:
@@ -96,7 +158,7 @@ def _check_target(target: Path) -> None:
 
 
 def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, float]]) -> None:
-    from drapery.comparison import html_report, pair_entry, pair_sheet, write_text
+    from drapery.comparison import html_report, pair_entry, pair_facts, pair_sheet, write_text
     from drapery.render import Animation, stack_frames
 
     ending = target.suffix.lower()
@@ -112,12 +174,16 @@ def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, f
         )
         write_text(target, html_report("Comparison", summary, entries))
     else:
-        facts = [
-            {"a": p.first.label, "b": p.other.label, "from": p.culprit, **p.difference.as_dict()}
-            for p in pairs
-        ]
+        facts = [pair_facts(pair) for pair in pairs]
         write_text(target, json.dumps({"pairs": facts, "cost": costs}, indent=2) + "\n")
 
 
 def _flicker(pairs: "list[Comparison]") -> "tuple[Frame, ...]":
-    return pairs[0].first.frame, *(pair.other.frame for pair in pairs)
+    from drapery.comparison import padded
+    from drapery.render import Frame
+
+    frames = [pairs[0].first.frame.pixels, *(pair.other.frame.pixels for pair in pairs)]
+    room = frames[0]
+    for pixels in frames[1:]:
+        room, _ = padded(room, pixels)
+    return tuple(Frame(padded(pixels, room)[0]) for pixels in frames)

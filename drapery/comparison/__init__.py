@@ -10,17 +10,36 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from drapery.comparison.alignment import align
     from drapery.comparison.cost import Cost, cost_of
-    from drapery.comparison.metrics import Difference, difference_map, errors, measure, seen
+    from drapery.comparison.loops import measure_pictures, padded
+    from drapery.comparison.metrics import (
+        Difference,
+        difference_map,
+        eight_bits,
+        errors,
+        measure,
+        seen,
+    )
     from drapery.comparison.pairs import (
+        BuildUpStep,
         Comparison,
         build_up_sheet,
         compare,
         compare_variants,
         pair_entry,
+        pair_facts,
         pair_sheet,
+        short_labels,
     )
-    from drapery.comparison.panels import difference_panel, side_by_side
+    from drapery.comparison.panels import difference_panel, joined_panels, side_by_side
+    from drapery.comparison.picture import (
+        MAX_FILE,
+        Picture,
+        as_picture,
+        decode_picture,
+        read_picture,
+    )
     from drapery.comparison.report import (
         ReportEntry,
         data_address,
@@ -28,33 +47,49 @@ if TYPE_CHECKING:
         html_report,
         write_text,
     )
-    from drapery.comparison.tolerance import Tolerance, ignored_pixels, painted
+    from drapery.comparison.tolerance import EXACT, Tolerance, ignored_pixels, painted
     from drapery.comparison.variants import Variant, draw_variants
+    from drapery.comparison.words import difference_words
 
 __all__ = [
+    "EXACT",
+    "MAX_FILE",
+    "BuildUpStep",
     "Comparison",
     "Cost",
     "Difference",
+    "Picture",
     "ReportEntry",
     "Tolerance",
     "Variant",
+    "align",
+    "as_picture",
     "build_up_sheet",
     "compare",
     "compare_variants",
     "cost_of",
     "data_address",
     "data_of",
+    "decode_picture",
     "difference_map",
     "difference_panel",
+    "difference_words",
     "draw_variants",
+    "eight_bits",
     "errors",
     "html_report",
     "ignored_pixels",
+    "joined_panels",
     "measure",
+    "measure_pictures",
+    "padded",
     "painted",
     "pair_entry",
+    "pair_facts",
     "pair_sheet",
+    "read_picture",
     "seen",
+    "short_labels",
     "side_by_side",
     "write_text",
 ]
@@ -62,17 +97,36 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
+        "comparison.alignment": ("align",),
         "comparison.cost": ("Cost", "cost_of"),
-        "comparison.metrics": ("Difference", "difference_map", "errors", "measure", "seen"),
+        "comparison.loops": ("measure_pictures", "padded"),
+        "comparison.metrics": (
+            "Difference",
+            "difference_map",
+            "eight_bits",
+            "errors",
+            "measure",
+            "seen",
+        ),
         "comparison.pairs": (
+            "BuildUpStep",
             "Comparison",
             "build_up_sheet",
             "compare",
             "compare_variants",
             "pair_entry",
+            "pair_facts",
             "pair_sheet",
+            "short_labels",
         ),
-        "comparison.panels": ("difference_panel", "side_by_side"),
+        "comparison.panels": ("difference_panel", "joined_panels", "side_by_side"),
+        "comparison.picture": (
+            "MAX_FILE",
+            "Picture",
+            "as_picture",
+            "decode_picture",
+            "read_picture",
+        ),
         "comparison.report": (
             "ReportEntry",
             "data_address",
@@ -80,7 +134,8 @@ __getattr__, __dir__ = lazy_names(
             "html_report",
             "write_text",
         ),
-        "comparison.tolerance": ("Tolerance", "ignored_pixels", "painted"),
+        "comparison.tolerance": ("EXACT", "Tolerance", "ignored_pixels", "painted"),
         "comparison.variants": ("Variant", "draw_variants"),
+        "comparison.words": ("difference_words",),
     },
 )

@@ -67,7 +67,8 @@ def _smoothed_in(a: Pixels, b: Pixels, places: Places) -> NDArray[np.bool_]:
         if end is darkest:
             one = flat
     found[kept] = one | flat
-    return found
+    smoothed: NDArray[np.bool_] = found
+    return smoothed
 
 
 def _in_one_colour(picture: Pixels, places: Places) -> NDArray[np.bool_]:

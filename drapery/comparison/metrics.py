@@ -8,16 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.comparison.perceptual import perceptual_measures
-from drapery.comparison.tolerance import Box, Tolerance
+from drapery.comparison.tolerance import EXACT, Box, Tolerance
 from drapery.errors import OptionError
+from drapery.picture_pixels import Channels
 from drapery.render import Pixels
 
-Channels = NDArray[np.uint8] | NDArray[np.uint16]
-"""A picture of 8 or 16 bits a channel, sRGB with straight alpha, shape [H, W, 4]."""
 Places = NDArray[np.intp]
-
-EXACT = Tolerance()
-"""The tolerance of a comparison in which each difference counts."""
 
 
 SAME, WITHIN, SMOOTHED, BEYOND = range(4)
@@ -41,6 +37,9 @@ class Difference:
     box: left, top, width and height of the area of the pixels that are beyond, or of all that
         differ if none is; None if none differs.
     exceeded: the perceptual limits that are exceeded, in words.
+    unlike: what differs beside the pixels, in words: sizes, the number of frames, their times.
+    frames: the numbers of the frames that do not agree, from 1; empty for stills. The counts of
+        a loop are those of all its frames.
     ssim: structural similarity (Wang et al. 2004), 1 for equal pictures.
     flip: mean FLIP error (Andersson et al. 2020), 0 for equal pictures.
     ciede2000: mean colour difference (Sharma, Wu, Dalal 2005), 0 for equal pictures.
@@ -58,24 +57,26 @@ class Difference:
     hidden: int = 0
     box: Box | None = None
     exceeded: tuple[str, ...] = ()
+    unlike: tuple[str, ...] = ()
+    frames: tuple[int, ...] = ()
     ssim: float | None = None
     flip: float | None = None
     ciede2000: float | None = None
 
     @property
     def same(self) -> bool:
-        """Whether no pixel differs to the eye."""
-        return self.changed == 0
+        """Whether nothing differs to the eye."""
+        return self.changed == 0 and not self.unlike
 
     @property
     def exact(self) -> bool:
         """Whether all bits are the same."""
-        return self.changed == 0 and self.hidden == 0 and self.ignored == 0
+        return self.same and self.hidden == 0 and self.ignored == 0
 
     @property
     def agrees(self) -> bool:
         """Whether the pictures agree within the tolerance."""
-        return self.beyond <= self.allowed and not self.exceeded
+        return self.beyond <= self.allowed and not (self.exceeded or self.unlike or self.frames)
 
     @property
     def verdict(self) -> str:
@@ -115,7 +116,7 @@ def measure(
     """
     old, new = _alike(expected, actual)
     found = _compared(old, new, tolerance, ignored)
-    wanted = {}
+    wanted: dict[str, Any] = {}
     if perceptual or tolerance.perceptual:
         wanted = perceptual_measures(eight_bits(old), eight_bits(new))
     return replace(found, **wanted, exceeded=_exceeded(tolerance, wanted))
@@ -206,8 +207,9 @@ def _kinds(old: Channels, new: Channels, part: _Part, tolerance: Tolerance) -> N
     a, b = eight_bits(old), eight_bits(new)
     far = np.flatnonzero(kinds == BEYOND)
     if tolerance.colour is not None:
-        rows = (picture.reshape(-1, 4)[part.places[far]] for picture in (a, b))
-        near = antialiasing.perceived_difference(*rows, part.places[far]) <= tolerance.colour
+        places = part.places[far]
+        rows = [picture.reshape(-1, 4)[places] for picture in (a, b)]
+        near = antialiasing.perceived_difference(rows[0], rows[1], places) <= tolerance.colour
         kinds[far[near]] = WITHIN
         far = far[~near]
     if not tolerance.antialiasing:
@@ -263,11 +265,11 @@ def eight_bits(pixels: Channels) -> Pixels:
     return pixels if pixels.dtype == np.uint8 else (pixels >> 8).astype(np.uint8)
 
 
-def seen(pixels: Pixels) -> Pixels:
+def seen(pixels: Channels) -> Channels:
     """Pictures with the colour of transparent pixels set to 0, shape [..., 4]."""
-    seen: Pixels = pixels * (pixels[..., 3:] > 0)
+    seen: Channels = pixels * (pixels[..., 3:] > 0)
     return seen
 
 
-def _size(pixels: Pixels) -> str:
+def _size(pixels: Channels) -> str:
     return f"{pixels.shape[1]}x{pixels.shape[0]}"

@@ -1,52 +1,83 @@
 """Comparison of two pictures, and the first layer with which they differ."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Unpack
 
+import numpy as np
+from numpy.typing import NDArray
+
 from drapery.banner.design import Banner
-from drapery.comparison.metrics import EXACT, Difference, measure
+from drapery.comparison.alignment import align
+from drapery.comparison.loops import measure_pictures
+from drapery.comparison.metrics import Difference
 from drapery.comparison.panels import side_by_side
+from drapery.comparison.picture import as_picture
 from drapery.comparison.report import ReportEntry, data_address
-from drapery.comparison.tolerance import Tolerance
+from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.comparison.variants import Variant, variant_of
+from drapery.comparison.words import difference_words
 from drapery.errors import OptionError
 from drapery.render import Frame, contact_sheet
 from drapery.settings import Options, Settings
 
 
 @dataclass(frozen=True)
+class BuildUpStep:
+    """Two designs, each with its first layers only, and how their pictures differ.
+
+    names: what the step adds to each design; None where it adds nothing.
+    """
+
+    names: tuple[str | None, str | None]
+    first: Frame
+    other: Frame
+    difference: Difference
+
+    def described(self) -> str:
+        """The step in words: a layer that one design lacks is named as such."""
+        old, new = self.names
+        if old is None or new is None:
+            return f"{old or new}, which only the {'second' if old is None else 'first'} has"
+        return old if old == new else f"{new} in place of {old}"
+
+
+@dataclass(frozen=True)
 class Comparison:
     """Two pictures and their difference.
 
-    build_up: for each number of layers drawn (0 is only the base) both pictures and their
-        difference; empty for finished pictures.
+    tolerance, mask: what counts as a difference.
+    build_up: one step for the base, and one for each layer of both designs, or of one if the other
+        has no such layer; empty for finished pictures.
     """
 
     first: Variant
     other: Variant
     difference: Difference
-    build_up: tuple[tuple[Frame, Frame, Difference], ...]
+    build_up: tuple[BuildUpStep, ...]
+    tolerance: Tolerance = EXACT
+    mask: NDArray[np.bool_] | None = None
 
     @property
     def culprit(self) -> str | None:
-        """The first step of the build-up at which the two differ; None if they never differ."""
-        for count, (_, _, difference) in enumerate(self.build_up):
-            if not difference.same:
-                return _step_name(self.other, count)
-        return None
+        """The step from which on the pictures differ up to the end; None if they never differ.
+
+        What differs in between and is then hidden by layers above is no cause.
+        """
+        cause = None
+        for step in reversed(self.build_up):
+            if step.difference.agrees:
+                break
+            cause = step.described()
+        return cause
 
     def line(self) -> str:
         """The result in one line."""
         both = f"{self.first.label} and {self.other.label}"
+        words = difference_words(self.difference, self.tolerance)
         if self.difference.same:
-            return f"{both} are the same to the last bit"
-        figures = (
-            f"{self.difference.changed} of {self.difference.pixels} pixels differ,"
-            f" max {self.difference.max_error}, mean {self.difference.mean_error:.3f}"
-        )
-        cause = f"; from {self.culprit} on" if self.culprit else ""
-        return f"{both}: {figures}{cause}"
+            return f"{both} are {words}"
+        return f"{both}: {words}" + (f"; from {self.culprit} on" if self.culprit else "")
 
     def sheet(self) -> Frame:
         """Both pictures and their difference side by side."""
@@ -66,7 +97,7 @@ def compare(
 
     settings, options: as for `draw`. tolerance: what counts as a difference.
     perceptual: measures SSIM, FLIP and CIEDE2000 too (extra: compare).
-    Raises OptionError if the sizes differ, and the errors of `draw`.
+    Pictures of other sizes are different. Raises OptionError, and the errors of `draw`.
     """
     variants = [
         variant_of(label, subject, settings, options)
@@ -76,47 +107,93 @@ def compare(
 
 
 def compare_variants(
-    variants: Sequence[Variant], tolerance: Tolerance = EXACT, *, perceptual: bool = False
+    variants: Sequence[Variant],
+    tolerance: Tolerance = EXACT,
+    *,
+    mask: NDArray[np.bool_] | None = None,
+    perceptual: bool = False,
 ) -> list[Comparison]:
-    """Compare every variant with the first. Raises OptionError if the sizes differ."""
+    """Compare every variant with the first. Raises OptionError for a single one.
+
+    mask: pixels that do not count, shape [H, W].
+    """
     if len(variants) < 2:
         raise OptionError("one picture cannot be compared; name at least two")
     first, *others = variants
-    return [_pair(first, other, tolerance, perceptual) for other in others]
+    return [_pair(first, other, tolerance, mask, perceptual) for other in others]
 
 
-def _pair(first: Variant, other: Variant, tolerance: Tolerance, perceptual: bool) -> Comparison:
-    pictures = first.frame.pixels, other.frame.pixels
-    difference = measure(*pictures, tolerance, perceptual=perceptual)
-    steps = []
-    if first.banner is not None and not difference.same:
-        for count in range(max(first.layer_count, other.layer_count) + 1):
-            a, b = first.with_layers(count), other.with_layers(count)
-            steps.append((a, b, measure(a.pixels, b.pixels)))
-    return Comparison(first, other, difference, tuple(steps))
+def _pair(
+    first: Variant,
+    other: Variant,
+    tolerance: Tolerance,
+    mask: NDArray[np.bool_] | None,
+    perceptual: bool,
+) -> Comparison:
+    pictures = first.picture, other.picture
+    difference = measure_pictures(*pictures, tolerance, mask=mask, perceptual=perceptual)
+    differ = first.banner is not None and other.banner is not None and not difference.same
+    steps = tuple(_build_up(first, other, tolerance, mask)) if differ else ()
+    return Comparison(first, other, difference, steps, tolerance, mask)
+
+
+def _build_up(
+    first: Variant, other: Variant, tolerance: Tolerance, mask: NDArray[np.bool_] | None
+) -> Iterator[BuildUpStep]:
+    """The steps of both designs side by side; equal layers belong together."""
+    layers = [variant.banner.layers for variant in (first, other) if variant.banner is not None]
+    counts = [0, 0]
+    for places in ((-1, -1), *align(*layers)):
+        counts = [
+            count if place is None else place + 1
+            for count, place in zip(counts, places, strict=True)
+        ]
+        pictures = first.with_layers(counts[0]), other.with_layers(counts[1])
+        names = [
+            None if place is None else _step_name(variant, place + 1)
+            for variant, place in zip((first, other), places, strict=True)
+        ]
+        old, new = map(as_picture, pictures)
+        difference = measure_pictures(old, new, tolerance, mask=mask)
+        yield BuildUpStep((names[0], names[1]), *pictures, difference)
 
 
 def pair_sheet(pair: Comparison) -> Frame:
-    """Both pictures and their difference side by side."""
-    labels = (pair.first.label[:40], pair.other.label[:40])
-    return side_by_side(pair.first.frame.pixels, pair.other.frame.pixels, labels)
+    """Both pictures and their difference side by side; of loops the first frames that differ."""
+    number = (pair.difference.frames or (1,))[0] - 1
+    frames = [
+        picture.frames[min(number, len(picture.frames) - 1)]
+        for picture in (pair.first.picture, pair.other.picture)
+    ]
+    labels = short_labels(pair.first.label, pair.other.label)
+    return side_by_side(frames[0], frames[1], labels, tolerance=pair.tolerance, mask=pair.mask)
+
+
+def short_labels(a: str, b: str, length: int = 40) -> tuple[str, str]:
+    """Two labels of at most so many characters, cut so that what differs is seen."""
+    if max(len(a), len(b)) <= length:
+        return a, b
+    common = next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), 0)
+    start = max(0, common - length // 4)
+    cut = [("…" if start else "") + label[start:] for label in (a, b)]
+    first, second = (each if len(each) <= length else each[: length - 1] + "…" for each in cut)
+    return first, second
 
 
 def build_up_sheet(pair: Comparison) -> Frame | None:
     """The build-up of both, one column a step; None for finished pictures."""
     if not pair.build_up:
         return None
-    names = [_step_name(pair.other, count) for count in range(len(pair.build_up))]
-    firsts = [(name, a.pixels) for name, (a, _, _) in zip(names, pair.build_up, strict=True)]
-    others = [(f"max {difference.max_error}", b.pixels) for _, b, difference in pair.build_up]
-    return contact_sheet([*firsts, *others], columns=len(names))
+    firsts = [(step.names[0] or "-", step.first.pixels) for step in pair.build_up]
+    others = [(step.names[1] or "-", step.other.pixels) for step in pair.build_up]
+    return contact_sheet([*firsts, *others], columns=len(pair.build_up))
 
 
 def _step_name(variant: Variant, count: int) -> str:
-    if count == 0 or variant.banner is None:
+    if variant.banner is None:
         return "base"
-    if count > len(variant.banner.layers):
-        return f"layer {count}"
+    if count == 0:
+        return f"base ({variant.banner.base})"
     layer = variant.banner.layers[count - 1]
     return f"layer {count} ({layer.pattern}, {layer.dye})"
 
@@ -130,11 +207,22 @@ def pair_entry(pair: Comparison) -> ReportEntry:
     sheet = build_up_sheet(pair)
     if sheet is not None:
         pictures.append(("built up layer by layer", data_address(sheet)))
-    facts = {k: v for k, v in pair.difference.as_dict().items() if v is not None}
+    facts = {k: v for k, v in pair_facts(pair).items() if v not in (None, (), {})}
     banners = dict.fromkeys(
         one.banner for one in (pair.first, pair.other) if one.banner is not None
     )
     shown = "; ".join(alt_text(banner) for banner in banners)
     return ReportEntry(
-        *(pair.other.label, pair.difference.same, pair.line(), facts, tuple(pictures), shown)
+        *(pair.other.label, pair.difference.agrees, pair.line(), facts, tuple(pictures), shown)
     )
+
+
+def pair_facts(pair: Comparison) -> dict[str, object]:
+    """The verdict, the figures and the limits of a pair, as reports have them."""
+    return {
+        "a": pair.first.label,
+        "b": pair.other.label,
+        "from": pair.culprit,
+        "limits": pair.tolerance.limits(),
+        **pair.difference.as_dict(),
+    }

@@ -65,4 +65,5 @@ def _ciede2000(expected: Pixels, actual: Pixels) -> float:
     except ImportError:
         raise _missing("CIEDE2000") from None
     labs = (color.rgb2lab(over_matte(picture)) for picture in (expected, actual))
-    return float(np.mean(color.deltaE_ciede2000(*labs)))
+    difference: Any = color.deltaE_ciede2000  # it has no types
+    return float(np.mean(difference(*labs)))

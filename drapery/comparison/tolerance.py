@@ -74,6 +74,10 @@ class Tolerance:
         return {name: value for name, value in vars(self).items() if value != getattr(exact, name)}
 
 
+EXACT = Tolerance()
+"""The tolerance of a comparison in which each difference counts."""
+
+
 def painted(mask: Pixels) -> NDArray[np.bool_]:
     """Which pixels a mask picture leaves out of a comparison, shape [H, W].
 

@@ -5,23 +5,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from drapery.banner.design import Banner
 from drapery.banner.formats import read_designs
 from drapery.banner.formats.registry import choose_banner
+from drapery.comparison.metrics import eight_bits
+from drapery.comparison.picture import ENDINGS, Picture, as_picture, read_picture
 from drapery.errors import OptionError
-from drapery.picture_file import opened_picture
 from drapery.pictures import draw
 from drapery.render import Frame
 from drapery.settings import Options, Settings
 from drapery.styles import StyleLike, find_style
-from drapery.user_files import read_user_file
-
-PICTURE_ENDINGS = (".png", ".gif", ".webp", ".apng")
-MAX_PICTURE_SIDE = 16384
-MAX_PICTURE_PIXELS = 8192 * 8192
-MAX_PICTURE_FILE = 512 << 20
 
 Axes = dict[str, list[tuple[str, dict[str, Any]]]]
 """The values of each thing that may vary: their labels, and the settings that they change."""
@@ -31,20 +24,25 @@ Axes = dict[str, list[tuple[str, dict[str, Any]]]]
 class Variant:
     """One variant of a comparison: its label, its picture, and how to draw its first layers.
 
-    frame: the whole picture.
+    picture: the whole picture.
     banner, settings: None for a finished picture.
     """
 
     label: str
-    frame: Frame
+    picture: Picture
     banner: Banner | None = None
     settings: Settings | None = None
 
     def with_layers(self, count: int) -> Frame:
-        """The picture with the first `count` layers; the whole one for a finished picture."""
+        """The picture with the first `count` layers; a finished picture has no others."""
         if self.banner is None or self.settings is None:
             return self.frame
         return draw(replace(self.banner, layers=self.banner.layers[:count]), self.settings)
+
+    @property
+    def frame(self) -> Frame:
+        """The picture, or the first frame of a loop, with 8 bits a channel."""
+        return Frame(eight_bits(self.picture.frames[0]))
 
     @property
     def layer_count(self) -> int:
@@ -56,10 +54,10 @@ def variant_of(
 ) -> Variant:
     """A design drawn with these options, or a finished picture. Raises the errors of `draw`."""
     if isinstance(subject, Frame):
-        return Variant(label, subject)
+        return Variant(label, as_picture(subject))
     chosen = settings or Settings()
     chosen = replace(chosen, **options)
-    return Variant(label, draw(subject, chosen), subject, chosen)
+    return Variant(label, as_picture(draw(subject, chosen)), subject, chosen)
 
 
 def draw_variants(
@@ -84,7 +82,7 @@ def draw_variants(
     if pictures:
         if len(pictures) < len(subjects) or len(pictures) < 2:
             raise OptionError(f"{pictures[0]} is a picture; compare it only with other pictures")
-        return [Variant(Path(p).name, _load(Path(p))) for p in pictures]
+        return [Variant(Path(p).name, read_picture(Path(p))) for p in pictures]
     packs = [subject for subject in subjects if _is_pack(subject)]
     designs = [subject for subject in subjects if subject not in packs]
     banners = [(text, _banner(text, form, number)) for text in designs]
@@ -128,12 +126,12 @@ def _drawn(
     for number, (label, changes) in enumerate(values):
         banner = banners[number if axis == "designs" else 0][1]
         changed = replace(base, **changes)
-        made.append(Variant(label, draw(banner, changed), banner, changed))
+        made.append(Variant(label, as_picture(draw(banner, changed)), banner, changed))
     return made
 
 
 def _is_picture(subject: str) -> bool:
-    return subject.lower().endswith(PICTURE_ENDINGS) and Path(subject).is_file()
+    return subject.lower().endswith(ENDINGS) and Path(subject).is_file()
 
 
 def _is_pack(subject: str) -> bool:
@@ -143,10 +141,3 @@ def _is_pack(subject: str) -> bool:
         or (path / "assets").is_dir()
         or (path.suffix.lower() in (".zip", ".jar") and path.is_file())
     )
-
-
-def _load(path: Path) -> Frame:
-    data = read_user_file(path, MAX_PICTURE_FILE, shorter="compare smaller pictures")
-    limits = {"max_pixels": MAX_PICTURE_PIXELS, "max_side": MAX_PICTURE_SIDE}
-    with opened_picture(data, str(path), **limits) as image:
-        return Frame(np.asarray(image.convert("RGBA")))

@@ -69,8 +69,9 @@ def dressed_player(
     if elytra:
         wings = find_garment("elytra")
         if texture is not None:
-            texture = ClothTexture(**WING, **texture)
-            pieces = [each.model_copy(update={"texture": texture}) for each in wings.piece]
+            wing: dict[str, Any] = {**WING, **texture}
+            dressed = {"texture": ClothTexture(**wing)}
+            pieces = [each.model_copy(update=dressed) for each in wings.piece]
             wings = wings.model_copy(update={"piece": tuple(pieces)})
         behind = [wings]
     elif texture is not None:
@@ -84,7 +85,7 @@ def dressed_player(
         ]
     if wearer.armor is not None and "chestplate" in parse_armor(wearer.armor):
         worn = [_over_chestplate(each) if each.name in BEHIND else each for each in worn]
-    given = {"name": "player", "piece": (), "picture": PICTURE, "folder": folder}
+    given: dict[str, Any] = {"name": "player", "piece": (), "picture": PICTURE, "folder": folder}
     try:
         return Garment(**given, wearer=wearer, over=tuple(worn))
     except ValidationError as error:

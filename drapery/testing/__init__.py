@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from drapery.testing.golden import (
         GoldenError,
         agrees,
-        as_frame,
         decode,
         encode,
         fingerprint,
@@ -46,7 +45,6 @@ __all__ = [
     "Tolerance",
     "accept_failures",
     "agrees",
-    "as_frame",
     "check_cases",
     "check_garment",
     "check_style",
@@ -83,7 +81,6 @@ __getattr__, __dir__ = lazy_names(
         "testing.golden": (
             "GoldenError",
             "agrees",
-            "as_frame",
             "decode",
             "encode",
             "fingerprint",

@@ -1,66 +1,116 @@
 """Checks a file of cases: each is drawn and compared with its golden, or replaces it."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from drapery import Banner, animate, draw
 from drapery.banner import read_design
-from drapery.comparison import Tolerance
-from drapery.errors import DraperyError
+from drapery.comparison import Picture, Tolerance, as_picture
+from drapery.errors import DraperyError, OptionError
 from drapery.packs import open_packs
-from drapery.render import make_folder, replacing
 from drapery.settings import LOOP_OPTIONS
 from drapery.testing.cases import Case, CaseFile
-from drapery.testing.explain import LayerNote, explain_change, layer_notes
-from drapery.testing.failures import GoldenUpdate, keep_failure
-from drapery.testing.golden import (
-    GoldenError,
-    Picture,
-    agrees,
-    decode,
-    encode,
-    fingerprint,
-)
-from drapery.user_files import read_user_file
+from drapery.testing.check import GoldenCheck, GoldenResult, check_golden
+from drapery.testing.explain import LayerNote, layer_notes
+from drapery.testing.failures import failure_id, failures_in, remove_failure
 
-MAX_BYTES = 1 << 30
-"""The longest golden file [bytes]."""
+TEST = "case"
+"""What the failures of cases have as their test in a report."""
 
 
 @dataclass(frozen=True)
 class CaseResult:
-    """The result of a case. fault: one line, or None if the picture agrees with its golden."""
+    """The result of a case.
+
+    fault: one line, or None if the picture agrees with its golden.
+    broken: whether it could not be drawn, or its files not be read or written.
+    """
 
     name: str
     fault: str | None = None
     written: bool = False
+    broken: bool = False
 
 
-def check_cases(cases: CaseFile, folder: Path, report: Path) -> Iterator[CaseResult]:
+def check_cases(
+    cases: CaseFile, folder: Path, report: Path, only: Collection[str] = ()
+) -> Iterator[CaseResult]:
     """Draw each case and compare it with its golden; pictures of failures go to `report`.
 
-    Raises a DraperyError that names the case if it cannot be drawn.
+    folder: of the file. only: the names of the cases to check; all if empty. A case that cannot be
+    drawn has a fault. Raises OptionError for a name that no case has.
     """
-    for case in cases.case:
-        drawn = _draw(case)
-        yield CaseResult(case.name, _fault(drawn, _golden_path(cases, case, folder), report))
+    for case in chosen_cases(cases, only):
+        try:
+            result = _checked(cases, case, folder, report, update=False)
+        except DraperyError as error:
+            yield CaseResult(case.name, str(error), broken=True)
+            continue
+        fault = result.fault
+        if fault is not None and fault.startswith("no golden at"):
+            fault += "; write it with `drapery golden update`"
+        yield CaseResult(case.name, fault, broken=fault is not None and result.failure is None)
 
 
-def update_cases(cases: CaseFile, folder: Path) -> Iterator[CaseResult]:
-    """Draw each case and write it as the new golden if it differs from the present one.
+def update_cases(cases: CaseFile, folder: Path, only: Collection[str] = ()) -> Iterator[CaseResult]:
+    """Draw each case and write it as the new golden where the present one does not agree.
 
-    Raises OutputError, or a DraperyError that names the case if it cannot be drawn.
+    only: see `check_cases`. Raises OptionError as there, and OutputError.
     """
-    for case in cases.case:
-        path = _golden_path(cases, case, folder)
-        new = _draw(case).golden()
-        changed = not path.exists() or read_user_file(path, MAX_BYTES) != new
-        if changed:
-            make_folder(path.parent)
-            with replacing(path) as beside:
-                beside.write_bytes(new)
-        yield CaseResult(case.name, written=changed)
+    for case in chosen_cases(cases, only):
+        try:
+            result = _checked(cases, case, folder, folder, update=True)
+        except DraperyError as error:
+            yield CaseResult(case.name, str(error), broken=True)
+            continue
+        written = result.written is not None
+        yield CaseResult(case.name, result.fault, written, broken=result.fault is not None)
+
+
+def chosen_cases(cases: CaseFile, only: Collection[str]) -> list[Case]:
+    """The cases of these names, or all. Raises OptionError for a name that no case has."""
+    unknown = set(only) - {case.name for case in cases.case}
+    if unknown:
+        known = ", ".join(case.name for case in cases.case[:8])
+        raise OptionError(f"there is no case {min(unknown)!r}; the first cases are {known}")
+    return [case for case in cases.case if not only or case.name in only]
+
+
+def clear_cases(report: Path, only: Collection[str] = ()) -> None:
+    """Remove the failures of cases from a report; those of tests stay. Raises OutputError.
+
+    only: the names of the cases; all if empty.
+    """
+    ids = {failure_id(TEST, name) for name in only}
+    for failure in failures_in(report):
+        if failure.test == TEST and (not only or failure.id in ids):
+            remove_failure(report, failure.id)
+
+
+def _checked(
+    cases: CaseFile, case: Case, folder: Path, report: Path, *, update: bool
+) -> GoldenResult:
+    """Raises a DraperyError for a case that cannot be drawn."""
+    banner = None if case.design is None else read_design(case.design)
+    check = GoldenCheck(
+        test=TEST,
+        label=case.name,
+        path=_golden_path(cases, case, folder),
+        tolerance=Tolerance(case.tolerance, case.pixels),
+        update=update,
+        variant=None,
+        report=report,
+        root=Path.cwd(),
+    )
+    return check_golden(check, _picture(case, banner), lambda: _notes(case, banner))
+
+
+def _notes(case: Case, banner: Banner | None) -> list[LayerNote] | None:
+    """The layers of the banner."""
+    if banner is None:
+        return None
+    return layer_notes(banner, open_packs(case.settings.packs, format=case.settings.format))
 
 
 def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
@@ -70,69 +120,15 @@ def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
     return sorted(path for path in found if path not in used)
 
 
-@dataclass(frozen=True)
-class _DrawnCase:
-    """A case, its banner and its picture. Notes and files are made only where they are needed."""
-
-    case: Case
-    banner: Banner | None
-    picture: Picture
-
-    def notes(self) -> list[LayerNote] | None:
-        """The layers of the banner."""
-        if self.banner is None:
-            return None
-        settings = self.case.settings
-        return layer_notes(self.banner, open_packs(settings.packs, format=settings.format))
-
-    def golden(self) -> bytes:
-        """The content of the golden file."""
-        if self.case.hashed:
-            return fingerprint(self.picture)
-        return encode(self.picture, self.notes())
-
-
-def _draw(case: Case) -> _DrawnCase:
-    try:
-        banner = None if case.design is None else read_design(case.design)
-        return _DrawnCase(case, banner, _picture(case, banner))
-    except DraperyError as error:
-        raise type(error)(f"case {case.name!r}: {error}") from None
-
-
 def _picture(case: Case, banner: Banner | None) -> Picture:
     if case.seconds is None and case.fps is None:
-        return draw(banner, case.settings)
+        return as_picture(draw(banner, case.settings))
     seconds = LOOP_OPTIONS["seconds"].default if case.seconds is None else case.seconds
     fps = LOOP_OPTIONS["fps"].default if case.fps is None else case.fps
-    return animate(banner, case.settings, seconds=seconds, fps=fps)
+    return as_picture(animate(banner, case.settings, seconds=seconds, fps=fps))
 
 
 def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:
     backend = "" if case.settings.backend in ("auto", "soft") else f"-{case.settings.backend}"
     ending = "sha256" if case.hashed else "png"
     return folder / cases.goldens / f"{case.name}{backend}.{ending}"
-
-
-def _fault(drawn: _DrawnCase, path: Path, report: Path) -> str | None:
-    case, picture = drawn.case, drawn.picture
-
-    def keep(line: str, expected: Picture | None = None) -> str:
-        update = GoldenUpdate(path, drawn.golden())
-        keep_failure(report, "case", case.name, expected, picture, line, update)
-        return line
-
-    if not path.exists():
-        keep("there is no golden yet")
-        return f"no golden at {path}; write it with `drapery golden update`"
-    data = read_user_file(path, MAX_BYTES)
-    if case.hashed:
-        found = fingerprint(picture)
-        return None if data == found else keep(f"the hash changed to {found.decode().strip()}")
-    try:
-        expected, before = decode(data)
-    except GoldenError as error:
-        return keep(f"{path}: {error}; restore it, or replace it with `drapery golden update`")
-    if agrees(expected, picture, Tolerance(case.tolerance, case.pixels)):
-        return None
-    return keep(explain_change(expected, picture, before, drawn.notes()), expected)

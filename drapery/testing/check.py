@@ -5,19 +5,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.comparison import Tolerance
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.comparison import MAX_FILE, Difference, Picture, Tolerance, measure_pictures
 from drapery.errors import OutputError
 from drapery.render import make_folder, replacing
 from drapery.testing.explain import LayerNote, explain_change
-from drapery.testing.failures import GoldenUpdate, keep_failure
-from drapery.testing.golden import (
-    GoldenError,
-    Picture,
-    beyond,
-    decode,
-    encode,
-    fingerprint,
-)
+from drapery.testing.failures import GoldenUpdate, failure_id, keep_failure
+from drapery.testing.golden import GoldenError, decode, encode, fingerprint
 from drapery.testing.naming import approved_paths, variant_path
 from drapery.user_files import open_user_file
 
@@ -34,6 +30,7 @@ class GoldenCheck:
     update: whether to write the picture where no approved one agrees.
     variant: the approved picture to write; None for the golden itself, or for the only one.
     report: the folder for the pictures of failures. root: the folder that its paths start from.
+    mask: pixels that do not count, beside those of the tolerance, shape [H, W].
     """
 
     test: str
@@ -44,17 +41,19 @@ class GoldenCheck:
     variant: str | None
     report: Path
     root: Path
+    mask: NDArray[np.bool_] | None = None
 
 
 @dataclass(frozen=True)
 class GoldenResult:
     """What a check found.
 
-    fault: one line, or None. failure: the id of the failure in the report, or None.
-    written: the golden that was written, or None.
+    fault: one line, or None. picture: what to look at, in the report; None if there is nothing.
+    failure: the id of the failure in the report, or None. written: the golden that was written.
     """
 
     fault: str | None = None
+    picture: Path | None = None
     failure: str | None = None
     written: Path | None = None
 
@@ -64,19 +63,20 @@ def check_golden(check: GoldenCheck, picture: Picture, notes: Notes) -> GoldenRe
     known: list[_Approved] = []
     for path in approved_paths(check.path):
         try:
-            approved = _compared(path, picture, check.tolerance)
+            approved = _compared(check, path, picture)
         except OSError as error:
-            return GoldenResult(_unusable(check, path, error))
-        if approved.beyond == 0:
+            reason = error.strerror or str(error)
+            return GoldenResult(f"{path}: {reason}; make the file readable and writable")
+        if approved.agrees:
             return GoldenResult()
         known.append(approved)
-    closest = min(known, key=lambda each: each.beyond, default=_Approved(check.path, math.inf))
+    closest = min(known, key=lambda each: each.distance, default=_Approved(check.path))
     target = closest.path if check.variant is None else variant_path(check.path, check.variant)
     if check.update:
         return _written(check, target, picture, notes)
     line = closest.line
     if closest.picture is not None:
-        line = explain_change(closest.picture, picture, closest.notes, notes())
+        line = explain_change(closest.picture, picture, closest.notes, notes(), check.tolerance)
     line = line or f"no golden at {check.path}"
     return _failed(check, line, target, closest.picture, picture, notes)
 
@@ -85,31 +85,42 @@ def check_golden(check: GoldenCheck, picture: Picture, notes: Notes) -> GoldenRe
 class _Approved:
     """An approved picture beside the present one.
 
-    beyond: how many pixels are beyond the tolerance; 0 if the pictures agree. picture, notes: what
-    the file holds, or None. line: why the picture cannot be shown, or nothing.
+    agrees: whether it does. difference: of their pixels; None if the file has none.
+    picture, notes: what the file holds, or None. line: why the picture cannot be shown, or nothing.
     """
 
     path: Path
-    beyond: float
+    agrees: bool = False
+    difference: Difference | None = None
     picture: Picture | None = None
     notes: list[LayerNote] | None = None
     line: str = ""
 
+    @property
+    def distance(self) -> float:
+        """How many pixels are beyond the tolerance; infinite for other sizes, and unknown."""
+        if self.difference is None or self.difference.unlike:
+            return math.inf
+        return self.difference.beyond
 
-def _compared(path: Path, picture: Picture, tolerance: Tolerance) -> _Approved:
+
+def _compared(check: GoldenCheck, path: Path, picture: Picture) -> _Approved:
     """Compare with one file. Raises OSError."""
     with open_user_file(path) as file:
-        data = file.read()
+        data = file.read(MAX_FILE + 1)
+    if len(data) > MAX_FILE:
+        return _Approved(path, line=f"{path}: it has over {MAX_FILE} bytes; draw smaller pictures")
     if path.suffix == ".sha256":
         now = fingerprint(picture)
         was = data.decode("ascii", "replace").strip()
         line = f"the hash changed from {was} to {now.decode().strip()}"
-        return _Approved(path, 0 if data == now else math.inf, line=line)
+        return _Approved(path, data == now, line=line)
     try:
         expected, notes = decode(data)
     except GoldenError as error:
-        return _Approved(path, math.inf, line=f"{path}: {error}; restore the file")
-    return _Approved(path, beyond(expected, picture, tolerance), expected, notes)
+        return _Approved(path, line=f"{path}: {error}; restore the file")
+    found = measure_pictures(expected, picture, check.tolerance, mask=check.mask)
+    return _Approved(path, found.agrees, found, expected, notes)
 
 
 def _content(path: Path, picture: Picture, notes: Notes) -> bytes:
@@ -122,13 +133,8 @@ def _written(check: GoldenCheck, path: Path, picture: Picture, notes: Notes) -> 
         with replacing(path) as beside:
             beside.write_bytes(_content(path, picture, notes))
     except OutputError as error:
-        return GoldenResult(f"golden {check.label!r}: {error}")
+        return GoldenResult(str(error))
     return GoldenResult(written=path)
-
-
-def _unusable(check: GoldenCheck, path: Path, error: OSError) -> str:
-    reason = error.strerror or str(error)
-    return f"golden {check.label!r}: {path}: {reason}; make the file readable and writable"
 
 
 def _failed(
@@ -142,10 +148,13 @@ def _failed(
     """Keep the failure for the report, and say what to do."""
     update = GoldenUpdate(target, _content(target, picture, notes))
     words = check.test, check.label, expected, picture, line, update
-    start = f"golden {check.label!r}: {line}; "
     try:
-        kept = keep_failure(check.report, *words, root=check.root)
+        kept = keep_failure(
+            *(check.report, *words),
+            root=check.root,
+            tolerance=check.tolerance,
+            mask=check.mask,
+        )
     except OutputError as error:
-        return GoldenResult(f"{start}{error}")
-    fault = f"{start}see {kept}; accept it with --drapery-update"
-    return GoldenResult(fault, failure=kept.name.partition(".")[0])
+        return GoldenResult(f"{line}; {error}")
+    return GoldenResult(line, kept, failure_id(check.test, check.label))

@@ -2,16 +2,25 @@
 
 import base64
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from drapery import Banner
 from drapery.banner import FLAG_REGIONS, flag_layers
-from drapery.comparison import measure
+from drapery.comparison import (
+    EXACT,
+    Tolerance,
+    align,
+    as_picture,
+    decode_picture,
+    difference_words,
+    eight_bits,
+    measure,
+    measure_pictures,
+)
 from drapery.packs import Packs
-from drapery.picture_file import opened_picture
 from drapery.render import Pixels, png_bytes
-from drapery.testing.golden import Picture, same_size, size_of, stacked
 
 MAX_SHIFT = 4
 """How far a layer's picture may have moved to be recognised [texels]."""
@@ -32,36 +41,43 @@ def layer_notes(banner: Banner, packs: Packs) -> list[LayerNote]:
 
 
 def explain_change(
-    expected: Picture,
-    actual: Picture,
+    expected: Any,
+    actual: Any,
     before: list[LayerNote] | None = None,
     after: list[LayerNote] | None = None,
+    tolerance: Tolerance = EXACT,
 ) -> str:
-    """One line: how much changed and, if layer notes are given, which layer and how."""
-    if not same_size(expected, actual):
-        return f"the size changed from {size_of(expected)} to {size_of(actual)}"
-    frames = [
-        measure(old, new) for old, new in zip(stacked(expected), stacked(actual), strict=True)
-    ]
-    changed = sum(each.changed for each in frames)
-    figures = f"{changed} pixels differ, max {max(each.max_error for each in frames)}"
-    if len(frames) > 1:
-        figures += f", in {sum(not each.same for each in frames)} of {len(frames)} frames"
+    """One line: how much changed and, if layer notes are given, which layer and how.
+
+    expected, actual: what `as_picture` takes.
+    """
+    old, new = as_picture(expected), as_picture(actual)
+    sizes = old.described(), new.described()
+    if sizes[0] != sizes[1]:
+        return f"the size changed from {sizes[0]} to {sizes[1]}"
     changes = list(_layer_changes(before, after)) if before and after else []
-    return "; ".join([*changes[:3], figures])
+    words = difference_words(measure_pictures(old, new, tolerance), tolerance)
+    return "; ".join([*changes[:3], words])
 
 
 def _layer_changes(before: list[LayerNote], after: list[LayerNote]) -> Iterator[str]:
-    if len(before) != len(after):
-        # Cloth and base do not count as layers.
-        yield f"{len(before) - 2} layers became {len(after) - 2}"
-    for number, (old, new) in enumerate(zip(before, after, strict=False)):
-        place = f"layer {number - 1}" if number > 1 else "below the layers:"
-        if old["name"] != new["name"]:
-            yield f"{place} ({old['name']}) became ({new['name']})"
-        elif old["face"] != new["face"]:
-            change = _face_change(_unpack(old["face"]), _unpack(new["face"]))
-            yield f"{place} ({old['name']}) {change}"
+    names = [[note["name"] for note in notes] for notes in (before, after)]
+    for i, j in align(*names):
+        if i is None:
+            assert j is not None
+            yield f"{_place(j)} ({names[1][j]}) is new"
+        elif j is None:
+            yield f"{_place(i)} ({names[0][i]}) is gone"
+        elif names[0][i] != names[1][j]:
+            yield f"{_place(i)} ({names[0][i]}) became ({names[1][j]})"
+        elif before[i]["face"] != after[j]["face"]:
+            change = _face_change(_unpack(before[i]["face"]), _unpack(after[j]["face"]))
+            yield f"{_place(j)} ({names[1][j]}) {change}"
+
+
+def _place(number: int) -> str:
+    # Cloth and base do not count as layers.
+    return f"layer {number - 1}" if number > 1 else "below the layers:"
 
 
 def _face_change(old: Pixels, new: Pixels) -> str:
@@ -95,5 +111,5 @@ def _pack(face: Pixels) -> str:
 
 
 def _unpack(face: str) -> Pixels:
-    with opened_picture(base64.b64decode(face), "the face", ("PNG",)) as image:
-        return np.asarray(image.convert("RGBA"))
+    (pixels,) = decode_picture(base64.b64decode(face), "the golden's layer", ("PNG",)).frames
+    return eight_bits(pixels)

@@ -12,22 +12,34 @@ import json
 import math
 import re
 import shlex
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from drapery.comparison import data_of, difference_panel, side_by_side, write_text
+from drapery.comparison import (
+    EXACT,
+    Picture,
+    Tolerance,
+    as_picture,
+    data_of,
+    difference_panel,
+    eight_bits,
+    joined_panels,
+    write_text,
+)
 from drapery.errors import OutputError
-from drapery.render import Animation, Frame, Pixels, make_folder, png_bytes, replacing
-from drapery.testing.golden import Picture, decode, frames_of, same_size
+from drapery.render import Pixels, make_folder, png_bytes, replacing
+from drapery.testing.golden import decode, encode
 from drapery.testing.naming import ENDINGS
 
 _FACTS = ".failure.json"
 _CONTENT = ".golden"
-_PICTURES = ("expected", "actual", "difference")
+_PICTURES = ("expected", "actual", "panel", "difference")
 _PAGE = "index.html"
 _MOST_ROWS = 500
 """The most rows of a summary: CI services refuse long ones."""
@@ -79,33 +91,34 @@ def keep_failure(
     folder: Path,
     test: str,
     label: str,
-    expected: Picture | None,
-    actual: Picture,
+    expected: Any,
+    actual: Any,
     line: str,
     update: GoldenUpdate | None = None,
     *,
     root: Path | None = None,
+    tolerance: Tolerance = EXACT,
+    mask: NDArray[np.bool_] | None = None,
 ) -> Path:
     """Write a failure's pictures and facts; returns the picture to look at first.
 
+    expected, actual: what `as_picture` takes; None if nothing is known of the expected one.
     update: what `accept_failures` writes. root: the folder in which `accept_failures` will run; by
-    default the present one. Raises OutputError.
+    default the present one. tolerance, mask: what does not count. Raises OutputError.
     """
     make_folder(folder)
-    stem = _stem(test, label)
-    pictures: dict[str, Picture] = {"actual": actual}
+    stem = failure_id(test, label)
+    pictures = {"actual": as_picture(actual)}
     if expected is not None:
-        pictures["expected"] = expected
-        if same_size(expected, actual):
-            pictures["difference"] = _joined(
-                (
-                    side_by_side(old.pixels, new.pixels)
-                    for old, new in zip(frames_of(expected), frames_of(actual), strict=True)
-                ),
-                actual,
-            )
+        pictures["expected"] = as_picture(expected)
+        pairs = list(_pairs(pictures["expected"], pictures["actual"]))
+        panels = [difference_panel(*pair, tolerance=tolerance, mask=mask) for pair in pairs]
+        sheets = [joined_panels(*pair, panel) for pair, panel in zip(pairs, panels, strict=True)]
+        pictures["panel"] = _in_time(panels, pictures["actual"])
+        pictures["difference"] = _in_time([sheet.pixels for sheet in sheets], pictures["actual"])
     for kind, picture in pictures.items():
-        picture.save(folder / f"{stem}.{kind}.png")
+        with replacing(folder / f"{stem}.{kind}.png") as part:
+            part.write_bytes(encode(picture))
     facts = {"test": test, "name": f"{test} [{label}]", "line": line, "golden": "", "was": ""}
     if update is not None:
         facts["golden"] = _relative(update.path, root)
@@ -293,40 +306,47 @@ def _page_of(failures: list[FailedPicture], folder: Path, root: Path | None) -> 
 
 
 def _shown(failure: FailedPicture) -> dict[str, _ShownPicture]:
-    """The pictures of a failure by their kinds."""
-    made = {kind: failure.picture(kind) for kind in ("expected", "actual")}
-    found = {kind: decode(png)[0] for kind, png in made.items() if png is not None}
-    if len(found) == 2 and same_size(*found.values()):
-        pairs = zip(*map(frames_of, found.values()), strict=True)
-        panels = (Frame(difference_panel(old.pixels, new.pixels)) for old, new in pairs)
-        found["difference"] = _joined(panels, found["actual"])
-    return {kind: _on_page(picture) for kind, picture in found.items()}
+    """The pictures of a failure by their names on the page."""
+    made = {kind: failure.picture(kind) for kind in ("expected", "actual", "panel")}
+    return {
+        "difference" if kind == "panel" else kind: _on_page(decode(png)[0])
+        for kind, png in made.items()
+        if png is not None
+    }
 
 
-def _joined(frames: Iterable[Frame], like: Picture) -> Picture:
-    """Frames as a picture of the same kind as another one."""
-    if isinstance(like, Animation):
-        return Animation(tuple(frames), like.fps)
-    (frame,) = frames
-    return frame
+def _pairs(a: Picture, b: Picture) -> Iterator[tuple[Pixels, Pixels]]:
+    """The frames of two pictures beside each other; the shorter one shows its last frame."""
+    both = [[eight_bits(frame) for frame in picture.frames] for picture in (a, b)]
+    for number in range(max(map(len, both))):
+        yield both[0][min(number, len(both[0]) - 1)], both[1][min(number, len(both[1]) - 1)]
+
+
+def _in_time(frames: Sequence[Pixels], like: Picture) -> Picture:
+    """Frames that are shown as those of another picture; further ones as its last."""
+    if len(frames) == 1:
+        return Picture((frames[0],))
+    known = like.delays or (0.1,)
+    delays = [known[min(number, len(known) - 1)] for number in range(len(frames))]
+    return Picture(tuple(frames), tuple(delays))
 
 
 def _on_page(picture: Picture) -> _ShownPicture:
-    frames = frames_of(picture)
+    frames = [eight_bits(frame) for frame in picture.frames]
     columns = math.ceil(math.sqrt(len(frames)))
-    sheet = frames[0].pixels if len(frames) == 1 else _sheet(frames, columns)
-    fps = picture.fps if isinstance(picture, Animation) else 1.0
-    return _ShownPicture(data_of(png_bytes(sheet), "png"), len(frames), columns, fps)
+    sheet = frames[0] if len(frames) == 1 else _sheet(frames, columns)
+    fps = len(frames) / sum(picture.delays) if sum(picture.delays) else 1.0
+    return _ShownPicture(data_of(png_bytes(sheet), "png"), len(frames), columns, round(fps, 4))
 
 
-def _sheet(frames: tuple[Frame, ...], columns: int) -> Pixels:
+def _sheet(frames: Sequence[Pixels], columns: int) -> Pixels:
     """All frames in one picture, in rows."""
-    height, width, channels = frames[0].pixels.shape
+    height, width, channels = frames[0].shape
     rows = -(-len(frames) // columns)
     sheet = np.zeros((rows * height, columns * width, channels), np.uint8)
     for number, frame in enumerate(frames):
         top, left = number // columns * height, number % columns * width
-        sheet[top : top + height, left : left + width] = frame.pixels
+        sheet[top : top + height, left : left + width] = frame
     return sheet
 
 
@@ -342,7 +362,8 @@ def _cell(text: str) -> str:
     return plain.replace("&", "&amp;").replace("@", "&#64;")
 
 
-def _stem(test: str, label: str) -> str:
+def failure_id(test: str, label: str) -> str:
+    """The beginning of the names of a failure's files."""
     readable = re.sub(r"[^A-Za-z0-9]+", "-", f"{test} {label}").strip("-")[-80:]
     digest = hashlib.sha256(f"{test}\0{label}".encode()).hexdigest()
     return f"{readable}-{digest[:8]}"

@@ -1,6 +1,7 @@
 """A check of garments for their authors."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from drapery.garments import Garment, SewnCloth
 from drapery.packs import open_packs
 from drapery.scenes import Dressed
 
-Points = NDArray[np.float64]
+Points = NDArray[np.floating[Any]]
 
 SECONDS, FPS = 1.5, 10
 DEPTH = 1e-3

@@ -16,6 +16,7 @@ from drapery.errors import DraperyError
 
 if TYPE_CHECKING:
     from drapery import Banner
+    from drapery.comparison import Picture
     from drapery.testing.usage import GoldenUsage
 
 Golden = Callable[..., None]
@@ -168,8 +169,8 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
 
     A test goes on after a picture that differs, and fails at its end with all of them.
 
-    picture: a Frame, an Animation, a Pillow image, a uint8 array, or a scene to be drawn by
-        `backend`.
+    picture: a Frame, an Animation, a Pillow image, an array of uint8 or uint16, the path of a
+        picture, or a scene to be drawn by `backend`.
     name: the golden's name within the test; by default its number. A name is used once in a test.
     tolerance, pixels: channel errors up to `tolerance` (0..255) do not count, and `pixels` pixels
         of each frame may have larger errors; both are 0 by default, which is right for the soft
@@ -231,17 +232,15 @@ def _label(name: str | None, used: list[str], backend: str) -> str:
     return label
 
 
-def _drawn(picture: Any, backend: str) -> Any:
-    from drapery.render import Animation, Scene
-    from drapery.testing.golden import as_frame
+def _drawn(picture: Any, backend: str) -> "Picture":
+    from drapery.comparison import as_picture
+    from drapery.render import Scene
 
-    if isinstance(picture, Animation):
-        return picture
     if isinstance(picture, Scene):
         from drapery.render import backend as backend_by_name
 
-        return backend_by_name(backend)(picture)
-    return as_frame(picture)
+        picture = backend_by_name(backend)(picture)
+    return as_picture(picture)
 
 
 def _check(
@@ -286,7 +285,10 @@ def _check(
         usage.written += 1
     elif result.failure is not None:
         config.stash[_ENTRIES].setdefault(item.nodeid, []).append(result.failure)
-    return result.fault
+    if result.fault is None:
+        return None
+    remedy = f"; see {result.picture}; accept it with --drapery-update" if result.picture else ""
+    return f"golden {label!r}: {result.fault}{remedy}"
 
 
 def _tolerance(config: pytest.Config, channel: int | None, pixels: int | None) -> Any:

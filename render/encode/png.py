@@ -6,7 +6,7 @@ Pillow compresses each frame, several in parallel; this module joins the frames 
 
 import struct
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from io import BytesIO
 from typing import BinaryIO
@@ -31,18 +31,28 @@ def png_bytes(pixels: Pixels, level: int = STILL_LEVEL) -> bytes:
     return file.getvalue()
 
 
-def apng_bytes(frames: Iterable[HasPixels], fps: float) -> bytes:
-    """An APNG file that loops forever, lossless; the same frames give the same bytes.
+def apng_bytes(
+    frames: Iterable[HasPixels], fps: float = 0, *, delays: Sequence[float] = (), plays: int = 0
+) -> bytes:
+    """An APNG file, lossless; the same frames give the same bytes.
 
-    frames: at least one, of one size. fps: frames/s, above 0.
+    frames: at least one, of one size. fps: frames/s, above 0. delays: how long each frame is shown
+    [s], in place of fps. plays: how often the animation is played; 0 for ever.
     """
     file = BytesIO()
-    write_apng(file, frames, fps)
+    write_apng(file, frames, fps, delays=delays, plays=plays)
     return file.getvalue()
 
 
-def write_apng(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
-    """An animation that loops forever.
+def write_apng(
+    file: BinaryIO,
+    frames: Iterable[HasPixels],
+    fps: float,
+    *,
+    delays: Sequence[float] = (),
+    plays: int = 0,
+) -> None:
+    """An animation; see `apng_bytes`.
 
     Each frame replaces its rectangle (blend "source") and is not cleared (dispose "none"), so
     half-transparent pixels are exact and old pixels do not remain.
@@ -54,7 +64,8 @@ def write_apng(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
             file.write(SIGNATURE + _chunk(b"IHDR", chunks[b"IHDR"]))
             start = file.tell()
             file.write(_chunk(b"acTL", bytes(8)))
-        file.write(_chunk(b"fcTL", _frame_control(sequence, patch, fps)))
+        delay = Fraction(delays[count]) if delays else 1 / Fraction(fps)
+        file.write(_chunk(b"fcTL", _frame_control(sequence, patch, delay)))
         if count == 0:
             file.write(_chunk(b"IDAT", chunks[b"IDAT"]))
         else:
@@ -63,7 +74,7 @@ def write_apng(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
         count += 1
     file.write(_chunk(b"IEND", b""))
     file.seek(start)
-    file.write(_chunk(b"acTL", struct.pack(">II", count, 0)))
+    file.write(_chunk(b"acTL", struct.pack(">II", count, plays)))
 
 
 def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[FramePatch, bytes]:
@@ -71,9 +82,9 @@ def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[FramePatch, bytes
     return patch, png_bytes(patch.pixels, FRAME_LEVEL)
 
 
-def _frame_control(sequence: int, patch: FramePatch, fps: float) -> bytes:
+def _frame_control(sequence: int, patch: FramePatch, seconds: Fraction) -> bytes:
     height, width = patch.pixels.shape[:2]
-    delay = (1 / Fraction(fps)).limit_denominator(10_000)
+    delay = seconds.limit_denominator(10_000)
     return struct.pack(
         ">5I2H2B",
         sequence,

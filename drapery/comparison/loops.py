@@ -1,0 +1,146 @@
+"""The difference of two pictures of any sizes, and of loops, frame by frame."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.comparison.metrics import Difference, measure
+from drapery.comparison.picture import Picture
+from drapery.comparison.tolerance import EXACT, Box, Tolerance, ignored_pixels
+from drapery.picture_pixels import Channels
+
+_MOST_NAMED = 8
+"""The most frames that are named."""
+
+
+def measure_pictures(
+    expected: Picture,
+    actual: Picture,
+    tolerance: Tolerance = EXACT,
+    *,
+    mask: NDArray[np.bool_] | None = None,
+    perceptual: bool = False,
+) -> Difference:
+    """Measure a picture against the expected one; see `measure`.
+
+    mask: pixels that do not count, beside the boxes of the tolerance, shape [H, W]. Pictures of
+    other sizes or lengths are different; what both have is compared. Raises OptionError for a mask
+    of another size.
+    """
+    unlike = tuple(_unlike(expected, actual))
+    found = [
+        measure(old, new, tolerance, ignored=ignored, perceptual=perceptual)
+        for old, new, ignored in _pairs(expected, actual, tolerance, mask)
+    ]
+    return replace(_joined(found), unlike=unlike)
+
+
+def _pairs(
+    expected: Picture, actual: Picture, tolerance: Tolerance, mask: NDArray[np.bool_] | None
+) -> Iterator[tuple[Channels, Channels, NDArray[np.bool_] | None]]:
+    ignored, known = None, None
+    for old, new in zip(expected.frames, actual.frames, strict=False):
+        first, second = padded(old, new)
+        if known != first.shape:
+            known = first.shape
+            ignored = ignored_pixels(first.shape[:2], tolerance.ignore, mask)
+        yield first, second, ignored
+
+
+def padded(a: Channels, b: Channels) -> tuple[Channels, Channels]:
+    """Two pictures with transparent pixels to the right and below, so that their sizes agree."""
+    if a.shape == b.shape:
+        return a, b
+    height, width = (max(sizes) for sizes in zip(a.shape[:2], b.shape[:2], strict=True))
+    both = []
+    for pixels in (a, b):
+        room = (0, height - pixels.shape[0]), (0, width - pixels.shape[1]), (0, 0)
+        both.append(np.pad(pixels, room))
+    return both[0], both[1]
+
+
+def _unlike(a: Picture, b: Picture) -> Iterator[str]:
+    """What differs beside the pixels."""
+    if a.size != b.size:
+        sizes = (f"{width}x{height}" for width, height in (a.size, b.size))
+        yield f"the sizes {' and '.join(sizes)}"
+    if len(a.frames) != len(b.frames):
+        yield f"{_count(len(a.frames))} and {_count(len(b.frames))}"
+    elif a.delays and b.delays:
+        # A file holds the time of a frame as a fraction of small numbers.
+        pairs = enumerate(zip(a.delays, b.delays, strict=True), 1)
+        other = [number for number, times in pairs if not math.isclose(*times, rel_tol=1e-3)]
+        if other:
+            first = other[0] - 1
+            yield (
+                f"the time of {named_frames(other)}"
+                f" ({1000 * a.delays[first]:.4g} and {1000 * b.delays[first]:.4g} ms)"
+            )
+        if a.plays != b.plays:
+            yield f"played {_times(a.plays)} and {_times(b.plays)}"
+
+
+def named_frames(numbers: Sequence[int]) -> str:
+    """The frames of a loop in words: runs are joined, and only the first ones are named."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][1] + 1:
+            runs[-1][1] = number
+        else:
+            runs.append([number, number])
+    words = [str(a) if a == b else f"{a} to {b}" for a, b in runs[:_MOST_NAMED]]
+    more = " and more" if len(runs) > _MOST_NAMED else ""
+    return f"{'frame' if len(numbers) == 1 else 'frames'} {', '.join(words)}{more}"
+
+
+def _count(frames: int) -> str:
+    return f"{frames} frame{'s' if frames != 1 else ''}"
+
+
+def _times(plays: int) -> str:
+    return "for ever" if plays == 0 else "once" if plays == 1 else f"{plays} times"
+
+
+def _joined(found: list[Difference]) -> Difference:
+    """The difference of a loop from those of its frames; of a still its own."""
+    if len(found) == 1:
+        return found[0]
+    pixels = sum(each.pixels for each in found)
+    return Difference(
+        pixels=pixels,
+        changed=sum(each.changed for each in found),
+        max_error=max(each.max_error for each in found),
+        mean_error=sum(each.mean_error * each.pixels for each in found) / pixels,
+        beyond=sum(each.beyond for each in found),
+        allowed=sum(each.allowed for each in found),
+        smoothed=sum(each.smoothed for each in found),
+        ignored=sum(each.ignored for each in found),
+        hidden=sum(each.hidden for each in found),
+        box=_around([each.box for each in found if each.box and (each.beyond or not _any(found))]),
+        exceeded=next((each.exceeded for each in found if each.exceeded), ()),
+        frames=tuple(number for number, each in enumerate(found, 1) if not each.agrees),
+        ssim=_worst([each.ssim for each in found], least=True),
+        flip=_worst([each.flip for each in found]),
+        ciede2000=_worst([each.ciede2000 for each in found]),
+    )
+
+
+def _any(found: list[Difference]) -> bool:
+    return any(each.beyond for each in found)
+
+
+def _worst(values: list[float | None], least: bool = False) -> float | None:
+    known = [value for value in values if value is not None]
+    return (min if least else max)(known) if known else None
+
+
+def _around(boxes: list[Box]) -> Box | None:
+    """The box around boxes."""
+    if not boxes:
+        return None
+    left, top = min(box[0] for box in boxes), min(box[1] for box in boxes)
+    right = max(box[0] + box[2] for box in boxes)
+    return left, top, right - left, max(box[1] + box[3] for box in boxes) - top

@@ -1,0 +1,74 @@
+"""What a comparison found, in words."""
+
+from drapery.comparison.loops import named_frames
+from drapery.comparison.metrics import Difference
+from drapery.comparison.tolerance import Tolerance
+
+
+def difference_words(difference: Difference, tolerance: Tolerance) -> str:
+    """How two pictures differ, in one line, the same wherever it is told.
+
+    What is beyond the tolerance is told apart from what is within it.
+    """
+    return "; ".join([*difference.unlike, *difference.exceeded, *_pixels(difference, tolerance)])
+
+
+def _pixels(difference: Difference, tolerance: Tolerance) -> list[str]:
+    if difference.same:
+        return _hidden(difference)
+    within = difference.changed - difference.beyond - difference.smoothed
+    parts = []
+    if difference.beyond or not (within or difference.smoothed):
+        parts.append(f"{_counted(difference.beyond)} {_verb(difference.beyond)}")
+    if within:
+        parts.append(f"{_counted(within)} {_verb(within)} within the tolerance")
+    if difference.smoothed:
+        parts.append(f"{_counted(difference.smoothed)} of smoothed edges")
+    limits = tolerance.limits()
+    if limits and (within or difference.beyond):
+        parts[-1] += f" ({', '.join(f'{name} {_shown(value)}' for name, value in limits.items())})"
+    words = ", ".join(parts) + f", max {difference.max_error:.4g}"
+    if difference.frames:
+        words += f", in {named_frames(difference.frames)}"
+    return [words + _place(difference), *_measures(difference)]
+
+
+def _hidden(difference: Difference) -> list[str]:
+    if difference.unlike:
+        return _measures(difference)
+    if difference.exact:
+        return ["the same to the last bit"]
+    parts = []
+    if difference.hidden:
+        parts.append(f"the colour of {_counted(difference.hidden)} that cannot be seen differs")
+    if difference.ignored:
+        verb = "is" if difference.ignored == 1 else "are"
+        parts.append(f"{_counted(difference.ignored)} {verb} ignored")
+    return [f"the same to the eye; {', '.join(parts)}"]
+
+
+def _place(difference: Difference) -> str:
+    if difference.box is None:
+        return ""
+    left, top, width, height = difference.box
+    return f", in columns {left} to {left + width - 1} of rows {top} to {top + height - 1}"
+
+
+def _measures(difference: Difference) -> list[str]:
+    found = {"FLIP": difference.flip, "SSIM": difference.ssim, "CIEDE2000": difference.ciede2000}
+    known = [f"{name} {value:.4g}" for name, value in found.items() if value is not None]
+    return [", ".join(known)] if known else []
+
+
+def _counted(pixels: int) -> str:
+    return f"{pixels} pixel{'' if pixels == 1 else 's'}"
+
+
+def _verb(pixels: int) -> str:
+    return "differs" if pixels == 1 else "differ"
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, tuple):
+        return " ".join(",".join(map(str, box)) for box in value)
+    return "off" if value is False else str(value)
