@@ -126,7 +126,7 @@ def test_a_script_is_read_from_a_file(tmp_path) -> None:
     with pytest.raises(OptionError, match="cannot be read"):
         read_script(str(tmp_path / "none.txt"))
     file.write_bytes(b"\xff\xfe")
-    with pytest.raises(OptionError, match="is not a text file"):
+    with pytest.raises(OptionError, match="is not text in UTF-8"):
         read_script(str(file))
 
 
