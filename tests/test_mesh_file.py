@@ -235,6 +235,14 @@ def test_a_texture_within_the_file_is_drawn(tmp_path: Path) -> None:
         assert model.materials[0].layers[0].texels[0, 0].tolist() == [200, 10, 10, 255]
 
 
+def test_a_texture_of_16_bits_keeps_its_upper_eight(tmp_path: Path) -> None:
+    buffer = io.BytesIO()
+    Image.fromarray(np.full((4, 4), 200 * 256 + 99, np.uint16)).save(buffer, "PNG")
+    written(tmp_path, "grey.glb", glb(textured(), buffer.getvalue()))
+    (model,) = read_stiff_mesh(GarmentMesh(file=Path("grey.glb")), tmp_path, 1 / 16).models
+    assert model.materials[0].layers[0].texels[0, 0].tolist() == [200, 200, 200, 255]
+
+
 def test_parts_with_one_texture_share_its_texels(tmp_path: Path) -> None:
     def change(tree: dict[str, Any]) -> None:
         textured()(tree)

@@ -13,6 +13,7 @@ from drapery.errors import OptionError
 from drapery.garments.model import MAX_LENGTH, GarmentMesh
 from drapery.mesh import Array, make_mesh
 from drapery.mesh_file import FilePart, joined, read_mesh_file
+from drapery.picture_pixels import pixels_of
 from drapery.render.scene import Material, Model, Texels, TextureLayer
 
 MAX_FILE = 8 << 20
@@ -86,7 +87,7 @@ def _material(visual: Any, decoded: dict[int, Texels]) -> Material:
     if image is not None:
         factor = getattr(own, "baseColorFactor", None)
         if id(image) not in decoded:
-            decoded[id(image)] = np.array(image.convert("RGBA"), np.uint8)
+            decoded[id(image)] = pixels_of(image)
         return Material((TextureLayer(decoded[id(image)], _tint(factor)),), "cutout")
     colour = np.asarray(own.main_color if own is not None else visual.main_color, np.uint8)
     return Material((TextureLayer(colour.reshape(1, 1, 4)),))

@@ -14,6 +14,7 @@ from drapery.match.art import HEIGHT, WIDTH
 from drapery.match.colours import UNIT, distances, oklab
 from drapery.packs import Texels, read_png
 from drapery.picture_file import opened_picture
+from drapery.picture_pixels import pixels_of
 from drapery.user_files import read_user_file
 
 Fit = Literal["cover", "contain", "stretch"]
@@ -71,7 +72,7 @@ def decode_picture(data: bytes, name: str = "the picture") -> Texels:
         except PackError as error:
             raise OptionError(str(error)) from None
     with opened_picture(data, name, _FORMATS) as image:
-        return np.asarray(ImageOps.exif_transpose(image).convert("RGBA"))
+        return pixels_of(ImageOps.exif_transpose(image))
 
 
 def fit_picture(

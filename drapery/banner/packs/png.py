@@ -2,16 +2,13 @@
 
 import struct
 from io import BytesIO
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner.packs.png_chunks import texel_chunks
 from drapery.errors import PackError
-
-if TYPE_CHECKING:
-    from PIL.PngImagePlugin import PngImageFile
+from drapery.picture_pixels import pixels_of
 
 Texels = NDArray[np.uint8]
 """A texture: sRGB with straight alpha, shape [H, W, 4], top row first."""
@@ -58,27 +55,8 @@ def read_png(data: bytes, name: str) -> Texels:
     try:
         with PngImageFile(file) as image:
             image.load()
-            texels = _rgba(image, depth=data[24])
-    except (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error) as error:
-        raise PackError(f"{name} is a broken PNG file ({error}): save it again") from None
+            texels = pixels_of(image, depth=data[24])
+    except (OSError, SyntaxError, ValueError, EOFError, IndexError, struct.error):
+        raise PackError(f"{name} is a broken PNG file: save it again") from None
     texels.setflags(write=False)
-    return texels
-
-
-def _rgba(image: "PngImageFile", depth: int) -> Texels:
-    if image.mode.startswith("I"):
-        return _from_grey16(np.asarray(image), image.info.get("transparency"))
-    clear = image.info.get("transparency")
-    # Pillow widens grey texels of 2 and 4 bits, but not their transparent value.
-    if image.mode == "L" and isinstance(clear, int) and depth < 8:
-        image.info["transparency"] = clear * (255 // ((1 << depth) - 1))
-    if image.mode == "RGB" and isinstance(clear, tuple) and depth == 16:
-        image.info["transparency"] = tuple(value >> 8 for value in clear)
-    return np.asarray(image if image.mode == "RGBA" else image.convert("RGBA"), np.uint8)
-
-
-def _from_grey16(grey: NDArray[np.integer], clear: int | None) -> Texels:
-    texels = np.empty((*grey.shape, 4), np.uint8)
-    texels[..., :3] = (grey >> 8).astype(np.uint8)[..., None]
-    texels[..., 3] = 255 if clear is None else np.where(grey == clear, 0, 255)
     return texels
