@@ -5,6 +5,7 @@ import os
 import time
 import urllib.error
 import urllib.request
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -37,20 +38,38 @@ def memory(studio: Studio) -> float:
     return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
 
 
+def send(studio: Studio, token: str) -> None:
+    """Send a file, for which the tab makes its folder."""
+    address = f"{studio.address}upload/{token}/design?name=x.txt"
+    urllib.request.urlopen(address, b"white creeper:lime", timeout=10)
+
+
+@pytest.fixture
+def own_studio(tmp_path: Path, compiled_kernels: None) -> Iterator[Studio]:
+    """A studio without pages of other tests, whose work it keeps for minutes, as it should."""
+    studio = Studio(tmp_path)
+    yield studio
+    studio.stop()
+
+
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs Linux's /proc to count")
-def test_tabs_leave_nothing(studio: Studio) -> None:
+def test_tabs_leave_nothing(own_studio: Studio) -> None:
+    studio = own_studio
+
     def cycle() -> str:
         with open_tab(studio.address) as (token, _):
             assert status(studio, token) == 200
+            send(studio, token)
+            assert list(studio.folder.glob("drapery-studio-*"))
         return token
 
     def closed(token: str) -> bool:
         return status(studio, token) == 404
 
     # Pools of threads grow to their size, and modules are loaded, with the first tabs.
-    last = [cycle() for _ in range(10)][-1]
-    wait_until(lambda: closed(last))
-    time.sleep(1.5)
+    first = [cycle() for _ in range(10)]
+    for token in first:
+        wait_until(lambda token=token: closed(token))
     before = threads(studio), handles(studio), memory(studio)
     began = time.monotonic()
     tokens = [cycle() for _ in range(CYCLES)]
@@ -75,10 +94,7 @@ def test_a_busy_page_is_not_gone(studio: Studio) -> None:
 def test_a_stopped_studio_leaves_no_files(tmp_path: Path) -> None:
     studio = Studio(tmp_path)
     with open_tab(studio.address) as (token, _):
-        body = b"white creeper:lime"
-        urllib.request.urlopen(
-            f"{studio.address}upload/{token}/design?name=x.txt", body, timeout=10
-        )
+        send(studio, token)
         assert list(tmp_path.glob("drapery-studio-*"))
         studio.stop()
     assert not list(tmp_path.glob("drapery-studio-*"))
