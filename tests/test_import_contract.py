@@ -3,6 +3,7 @@
 import ast
 import tomllib
 from collections.abc import Iterator
+from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from importlib import import_module
@@ -224,3 +225,26 @@ def test_class_names_are_unique() -> None:
                 if isinstance(node, ast.ClassDef):
                     places.setdefault(node.name, []).append(f"{path.relative_to(ROOT)}")
     assert not {name: found for name, found in places.items() if len(found) > 1}
+
+
+@pytest.mark.parametrize("name", sorted(set(modules()) - {"drapery.__main__"}))
+def test_defaults_of_dataclasses_can_be_hashed(name: str) -> None:
+    """Python 3.11 refuses a default whose type has no hash, such as MappingProxyType."""
+    classes = [each for each in vars(import_module(name)).values() if isinstance(each, type)]
+    faults = [
+        f"{each.__name__}.{field.name}"
+        for each in filter(is_dataclass, classes)
+        for field in fields(each)
+        if not (
+            field.default is MISSING or isinstance(field.default, tuple) or _has_hash(field.default)
+        )
+    ]
+    assert not faults, f"{faults}: use field(default_factory=...)"
+
+
+def _has_hash(value: object) -> bool:
+    try:
+        hash(value)
+    except TypeError:
+        return False
+    return True

@@ -7,8 +7,7 @@ Names and lore are text components, whose form depends on the version of Java Ed
 import json
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from types import MappingProxyType
+from dataclasses import dataclass, field
 
 from drapery.banner.formats.tree import DataTree, bare, get
 from drapery.banner.names import shown
@@ -23,7 +22,6 @@ MAX_DEPTH = 64
 
 _TARGET = re.compile(r"@[aenprs](\[[^\n]{0,200}\])?|[\w-]{1,36}", re.ASCII)
 _DESIGN = ("banner_patterns", "base_color")
-_NONE: Mapping[str, DataTree] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -43,8 +41,8 @@ class ItemDetails:
     name: DataTree = ""
     lore: tuple[DataTree, ...] = ()
     json_text: bool = False
-    components: Mapping[str, DataTree] = _NONE
-    tag: Mapping[str, DataTree] = _NONE
+    components: Mapping[str, DataTree] = field(default_factory=dict)
+    tag: Mapping[str, DataTree] = field(default_factory=dict)
     left_out: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
