@@ -33,6 +33,8 @@ execute if entity @a[nbt={Inventory:[{id:"minecraft:red_banner"}]}] run tag @s a
 execute unless block ~ ~ ~ #minecraft:banners run return 0
 execute if block ~ ~ ~ minecraft:white_banner[rotation=0] run data merge entity @s {Rotation:[0f]}
 clear @s minecraft:red_banner
+clear @s red_banner[banner_patterns=[{pattern:"creeper",color:"lime"}]]
+execute if block 1 2 3 red_banner{patterns: [{pattern:a,color:lime}]} run teleport @a 1 2 3
 fill ~ ~ ~ ~1 ~1 ~1 air replace red_wall_banner
 give @s minecraft:creeper_banner_pattern
 give @s diamond_chestplate[trim={material:"gold",pattern:"sentry"}]
@@ -73,7 +75,6 @@ summon zombie ~ ~ ~ {HandItems:[{},{id:"minecraft:shield",Count:1b}]}
         '"tag":"{BlockEntityTag:{Patterns:[{Pattern:cre,Color:5}]}}"}}}',
         "setblock ~ ~ ~ command_block{Command:'/give @p red_banner[banner_patterns="
         "[{pattern:creeper,color:lime}]]'}",
-        f"execute if block 1 2 3 red_banner{{patterns: [{LAYER}]}} run teleport @a 1 2 3",
         f"give @s chest[container=[{{slot:0,item:{{id:red_banner,components:"
         f"{{banner_patterns:[{LAYER}]}}}}}}]]",
         "give @s red_banner[banner_patterns=[\\\n    {pattern:cree\\\n  per,\\\r\n"

@@ -1,5 +1,7 @@
 """What looks like a design and is not understood is an error or a warning, never a plain banner."""
 
+import warnings
+
 import pytest
 
 from drapery.banner.formats import parse_banner, parse_banners
@@ -8,6 +10,8 @@ from drapery.errors import DesignError
 
 LAYER = '{pattern:"creeper",color:"lime"}'
 OLD = "{BlockEntityTag:{Base:15,Patterns:[{Pattern:cre,Color:10}]}}"
+BLOCK = f"red_banner[rotation=4]{{patterns:[{LAYER}]}}"
+OLD_BLOCK = "{Base:15,Patterns:[{Pattern:cre,Color:10}]}"
 OLD_ITEM = f'{{id:"shield",Count:1b,tag:{OLD}}}'
 OLD_SHIELD = parse_banner("shield white creeper:lime")
 NEW_SHIELD = parse_banner("shield black creeper:purple")
@@ -99,9 +103,22 @@ def test_shields_since_1_13_count_their_dyes_from_white(text: str) -> None:
         ("/fill ~ ~ ~ ~9 ~9 ~9 air replace red_banner", ["no banner in the command"]),
         ("/fill ~ ~ ~ ~9 ~9 ~9 minecraft:air replace standing_banner 8", ["no banner"]),
         ("/clone 1 2 3 4 5 6 7 8 9 filtered red_banner", ["clone makes no banner"]),
-        ("/execute if block ~ ~ ~ red_banner", ["no banner in the command"]),
-        ("/execute as @a if items entity @s weapon red_banner run kill @s", ["no banner"]),
+        ("/execute if block ~ ~ ~ red_banner", ["execute makes no banner", "/give"]),
+        ("/execute as @a if items entity @s weapon red_banner run kill @s", ["makes no banner"]),
         ("/testforblock ~ ~ ~ standing_banner 8", ["testforblock makes no banner"]),
+        (f"/clear @p red_banner[banner_patterns=[{LAYER}]]", ["clear makes no banner"]),
+        (f"execute if block ~ ~ ~ {BLOCK}", ["execute makes no banner", "only tests", "/give"]),
+        (f"execute unless block ~ ~ ~ {BLOCK}", ["execute makes no banner"]),
+        (f"execute if block ~ ~ ~ {BLOCK} run say hi", ["execute makes no banner"]),
+        (f"execute if data block ~ ~ ~ {{patterns:[{LAYER}]}}", ["execute makes no banner"]),
+        (
+            f"execute if items entity @s * red_banner[banner_patterns=[{LAYER}]]",
+            ["execute makes no banner"],
+        ),
+        (f"execute as @a give @s red_banner[banner_patterns=[{LAYER}]]", ["runs no", "write run"]),
+        (f"testfor @p {{Inventory:[{{id:banner,tag:{OLD}}}]}}", ["testfor makes no banner"]),
+        (f"testforblock ~ ~ ~ standing_banner 4 {OLD_BLOCK}", ["testforblock makes no banner"]),
+        (f"fill ~ ~ ~ ~ ~ ~ air replace {BLOCK}", ["no banner in the command"]),
         ('/data remove block ~ ~ ~ Items[{id:"minecraft:red_banner"}]', ["no banner"]),
     ],
 )
@@ -132,8 +149,6 @@ def test_what_is_not_understood_is_named(text: str, parts: list[str]) -> None:
             "red creeper:lime",
         ),
         (f"red_banner[container=[{{item:{{id:a,b:[{LAYER}]}}}}]]", "red"),
-        (f"/clear @p red_banner[banner_patterns=[{LAYER}]]", "red creeper:lime"),
-        (f"execute if items entity @s * red_banner[banner_patterns=[{LAYER}]]", "red creeper:lime"),
         ('/execute as @a[nbt=!{a:"red_banner"}] run give @s blue_banner', "blue"),
         ("/execute if items entity @s * *[custom_data~{a:1}] run give @s red_banner", "red"),
         ("/blockdata ~ ~ ~ {Base:1,Patterns:[{Pattern:cre,Color:10}]}", "red creeper:lime"),
@@ -141,7 +156,9 @@ def test_what_is_not_understood_is_named(text: str, parts: list[str]) -> None:
     ],
 )
 def test_what_is_understood_is_read(text: str, design: str) -> None:
-    assert parse_banner(text) == parse_banner(design)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert parse_banner(text) == parse_banner(design)
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 A command is split into words as the game splits it, and only the words that define a banner are
 read: the item that it gives, the block that it places, the tags of what it summons or changes.
 What a command only tests or removes (`clear`, `execute if`, `fill … replace red_banner`) is not a
-banner, unless the command makes none and the tested one has layers.
+banner.
 """
 
 import re
@@ -107,13 +107,26 @@ def banners_of_command(text: str, *, line: int = 1) -> list[FoundBanner]:
     Raises DesignError for a design that cannot be read.
     """
     words = _words(text)
-    made = list(_made(text, _innermost(words), line))
-    if made:
-        return made
-    tested = list(_tested(text, words, line))
-    if not tested and looks_like_design(text):
+    run = _innermost(words)
+    made = list(_made(text, run, line))
+    if not made and _leaves_design(words, run):
         raise DesignError(_nothing(text))
-    return tested
+    return made
+
+
+def _leaves_design(words: list[Word], run: list[Word]) -> bool:
+    """Whether a command that makes no banner has layers outside of what it tests or removes."""
+    if not run:
+        return not _is_test(words) and any(looks_like_design(word.text) for word in words)
+    name = first_word(run[0].text)
+    if name in _TESTS:
+        return False
+    rest = [word.text for word in _defining(run, name) if word.text[0] != "@"]
+    return looks_like_design(" ".join(rest))
+
+
+def _is_test(words: list[Word]) -> bool:
+    return not {"if", "unless"}.isdisjoint(word.text for word in words)
 
 
 def banners_of_message(text: str, *, line: int = 1) -> list[FoundBanner]:
@@ -244,22 +257,9 @@ def _defining(words: list[Word], name: str) -> list[Word]:
         return words[-1:]  # after the blocks that are replaced
     if name == "data" and "value" in texts:
         return words[texts.index("value") + 1 :]
+    if name == "data" and texts[1:2] in (["get"], ["remove"]):
+        return []
     return words[1:]
-
-
-def _tested(text: str, words: list[Word], line: int) -> Iterator[FoundBanner]:
-    """The banners with layers that a command tests or removes."""
-    for word in words:
-        if not _may_hold(word) or not looks_like_design(word.text):
-            continue
-        is_tree = word.text[0] in "{[" and word is not words[0]
-        parts = [_tree(text, word, line)] if is_tree else _parsed(text, word.start, word, line)
-        if _is_item(word):
-            found = [FoundBanner(_argument(word.name, parts[1:]), bare(word.name))]
-        else:
-            trees = [part for part in parts if not isinstance(part, str)]
-            found = [one for tree in trees for one in _in_tree(tree, "", False)]
-        yield from (one for one in found if one.banner.layers)
 
 
 def _parsed(text: str, start: int, last: Word, line: int) -> list[Part]:
@@ -377,6 +377,10 @@ def _compounds(tree: DataTree) -> Iterator[dict[str, DataTree]]:
             nodes.extend(node)
 
 
+_OLD_BLOCKS = OLD_BANNERS - {"banner"}
+"""Ids of blocks up to 1.12, which are not items."""
+
+
 def _argument(identifier: str, rest: list[Part]) -> Banner:
     """The banner or shield of an argument, from its id and what follows in the command."""
     _check_rest(rest)
@@ -389,7 +393,9 @@ def _argument(identifier: str, rest: list[Part]) -> Banner:
     is_old = bool(rest) and isinstance(rest[0], str)
     if bare(identifier) in OLD_BANNERS or (is_shield_id(identifier) and is_old and tag is not None):
         data = _old_data(rest)
-        return banner_from_tag(identifier, tag, data=0 if data is None and is_old else data)
+        is_block = bare(identifier) in _OLD_BLOCKS  # its number is its rotation
+        data = None if is_block else 0 if data is None and is_old else data
+        return banner_from_tag(identifier, tag, data=data)
     if tag is not None:
         return banner_from_tag(identifier, tag)
     components: DataTree = None if brackets is None else dict(brackets)
@@ -439,13 +445,20 @@ def _old_data(rest: list[Part]) -> int | None:
     return int(words[1]) if len(words) == 2 and words[1].isdecimal() and len(words[1]) < 4 else None
 
 
+_GIVE_IT = "give the command that makes it, such as /give"
+
+
 def _nothing(text: str) -> str:
     """The error for a command without a banner that it makes."""
     words = split_words(text)
     inner = _innermost(words)
     name = first_word(inner[0].text) if inner else ""
     if name in _TESTS:
-        return f"{name} makes no banner; give the command that makes it, such as /give"
+        return f"{name} makes no banner; {_GIVE_IT}"
+    if not inner and not _is_test(words):
+        return f"{first_word(text)} runs no command; write run and the command after it"
+    if inner != words and not any(map(_is_item, inner)):
+        return f"{first_word(text)} makes no banner, it only tests for it; {_GIVE_IT}"
     if near := _nearest(words):
         return f"no banner in the command: {near}"
     if looks_like_design(text) and not any(map(_is_item, words)):
