@@ -23,7 +23,7 @@ FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
     *("aot", "jit_cache", "jit_calls", "kernel_sources"),
     *("lazy", "toml_text", "player_settings"),
-    *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers"),
+    *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets", "match"}
@@ -51,6 +51,7 @@ ALLOWED: dict[str, set[str]] = {
     "toml_text": {"errors", "user_files"},
     "picture_file": {"errors"},
     "picture_pixels": {"errors"},
+    "sqlite_faults": set(),
     "mesh_headers": {"errors", "picture_file"},
     "mesh_file": {"errors", "mesh", "mesh_headers", "user_files"},
     "assets": set(),

@@ -4,6 +4,7 @@ import json
 import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -205,17 +206,18 @@ def test_damaged_foreign_and_newer_files(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="damaged or not a library"):
         Library(path)
     path.unlink()
-    with sqlite3.connect(path) as other:
+    with closing(sqlite3.connect(path)) as other, other:
         other.execute("CREATE TABLE theirs (a)")
     with pytest.raises(OutputError, match="another program's"):
         Library(path)
     path.unlink()
     Library(path)
-    with sqlite3.connect(path) as newer:
+    with closing(sqlite3.connect(path)) as newer, newer:
         newer.execute(f"PRAGMA user_version = {VERSION + 1}")
     with pytest.raises(OutputError, match=rf"has version {VERSION + 1}"):
         Library(path)
-    assert sqlite3.connect(path).execute("PRAGMA application_id").fetchone() == (APPLICATION_ID,)
+    with closing(sqlite3.connect(path)) as made:
+        assert made.execute("PRAGMA application_id").fetchone() == (APPLICATION_ID,)
 
 
 def test_a_file_cut_short(library: Library) -> None:
@@ -231,7 +233,7 @@ def test_a_file_cut_short(library: Library) -> None:
 def test_a_spoilt_row_does_not_hide_the_others(library: Library) -> None:
     library.add(design(title="a"))
     spoilt = library.add(design(title="b"))
-    with sqlite3.connect(library.path) as connection:
+    with closing(sqlite3.connect(library.path)) as connection, connection:
         connection.execute("UPDATE designs SET tree = '[[[' WHERE number = ?", (spoilt,))
     assert found(library) == ["a"]
     with pytest.raises(DesignError, match="is damaged; delete it"):
@@ -249,16 +251,17 @@ def test_where_nothing_can_be_written(tmp_path: Path) -> None:
 
 def test_a_locked_file(library: Library) -> None:
     library = Library(library.path, lock_timeout=0.05)
-    connection = sqlite3.connect(library.path, isolation_level=None)
-    connection.execute("BEGIN EXCLUSIVE")
-    with pytest.raises(OutputError, match="another program uses it"):
+    with closing(sqlite3.connect(library.path, isolation_level=None)) as connection:
+        connection.execute("BEGIN EXCLUSIVE")
+        with pytest.raises(OutputError, match="another program uses it"):
+            library.add(design())
+        connection.execute("ROLLBACK")
         library.add(design())
-    connection.execute("ROLLBACK")
-    library.add(design())
 
 
 WRITER = """
 import sys
+from contextlib import closing
 from pathlib import Path
 from drapery.banner.formats import parse_banner
 from drapery.settings import Settings

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from drapery.batch.jobs import Job, JobResult
 from drapery.errors import OutputError
+from drapery.sqlite_faults import sqlite_cause, sqlite_name
 
 FILE = "drapery-batch.sqlite"
 
@@ -52,12 +53,19 @@ class ResultsDB:
         self.path = path
         with self._explained():
             self._db = sqlite3.connect(path, isolation_level=None, timeout=1.0)
-            # The lock ends with its process, even if that is killed.
-            self._db.execute("PRAGMA locking_mode = EXCLUSIVE")
-            self._db.execute("PRAGMA journal_mode = WAL")
-            # Written pages survive if the process is killed; a power cut may lose the last ones.
-            self._db.execute("PRAGMA synchronous = NORMAL")
-            self._db.executescript(_SCHEMA)
+            try:
+                self._prepare()
+            except BaseException:
+                self._db.close()
+                raise
+
+    def _prepare(self) -> None:
+        # The lock ends with its process, even if that is killed.
+        self._db.execute("PRAGMA locking_mode = EXCLUSIVE")
+        self._db.execute("PRAGMA journal_mode = WAL")
+        # Written pages survive if the process is killed; a power cut may lose the last ones.
+        self._db.execute("PRAGMA synchronous = NORMAL")
+        self._db.executescript(_SCHEMA)
 
     def __enter__(self) -> "ResultsDB":
         return self
@@ -116,10 +124,14 @@ class ResultsDB:
             raise OutputError(f"results {self.path}: {_remedy(error)}") from None
 
 
+_REMEDIES = {
+    "locked": "another run is using it; wait for it, or choose another folder",
+    "damaged": "the file is damaged; delete it, or name another with --results",
+    "unwritable": "it cannot be opened or written; name another with --results",
+    "full": "the disk is full; make room, or name another with --results",
+}
+
+
 def _remedy(error: sqlite3.Error) -> str:
-    text = str(error)
-    if "locked" in text:
-        return "another run is using it; wait for it, or choose another folder"
-    if any(word in text for word in ("malformed", "not a database", "decode", "corrupt")):
-        return f"the file is damaged ({text[:120]}); delete it, or name another with --results"
-    return f"{text[:200]}; repair that, or name another with --results"
+    refused = f"SQLite refuses it ({sqlite_name(error)}); name another with --results"
+    return _REMEDIES.get(sqlite_cause(error), refused)

@@ -20,6 +20,7 @@ from sqlalchemy.orm import DeclarativeBase, Mapped, Session, mapped_column, rela
 from sqlalchemy.pool import NullPool
 
 from drapery import DesignError, OutputError
+from drapery.sqlite_faults import sqlite_cause, sqlite_name
 from drapery.studio.records import (
     MAX_DESIGNS,
     Design,
@@ -179,7 +180,8 @@ class Library:
         except DBAPIError as error:
             raise OutputError(f"library {self.path}: {_reason(error)}") from None
         except SQLAlchemyError as error:
-            raise OutputError(f"library {self.path}: {str(error).splitlines()[0]}") from None
+            reason = f"it cannot be used ({type(error).__name__}); move it away"
+            raise OutputError(f"library {self.path}: {reason}") from None
 
 
 @cache
@@ -232,15 +234,18 @@ def _prepare(session: Session, path: Path) -> None:
     session.execute(text(f"PRAGMA user_version = {VERSION}"))
 
 
+_REASONS = {
+    "locked": "another program uses it; close that program",
+    "unwritable": "it cannot be written; change its permissions",
+    "damaged": "it is damaged or not a library; move it away",
+    "full": "the disk is full; make room",
+}
+
+
 def _reason(error: DBAPIError) -> str:
-    reason = str(error.orig)
-    if "locked" in reason:
-        return "another program uses it; close that program, or name another file with --library"
-    if "unable to open" in reason or "readonly" in reason:
-        return "it cannot be written; change its permissions, or name another file with --library"
-    if "not a database" in reason or "malformed" in reason:
-        return "it is damaged or not a library; move it away, or name another file with --library"
-    return f"{reason}; name another file with --library"
+    cause = sqlite_cause(error.orig)
+    first = _REASONS.get(cause, f"SQLite refuses it ({sqlite_name(error.orig)}); repair that")
+    return f"{first}, or name another file with --library"
 
 
 def _insert(session: Session, design: Design) -> int:
