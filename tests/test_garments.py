@@ -1,5 +1,6 @@
 """Garments as data: files, faults, shapes, seams, textures, and their pictures."""
 
+import math
 import re
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 from conftest import Run
+from cost import limited_cost
 from PIL import Image
 from pydantic import ValidationError
 
@@ -31,6 +33,8 @@ from drapery.garments import (
 )
 from drapery.garments.loading import MAX_BYTES
 from drapery.garments.meshes import read_stiff_mesh
+from drapery.garments.model import MAX_POINTS
+from drapery.garments.players import dressed_player, make_wearer
 from drapery.garments.shapes import cut_pieces
 from drapery.garments.textures import texture_of
 from drapery.mesh import face_normals, vertex_normals
@@ -120,6 +124,54 @@ def test_a_fault_names_the_line_and_the_remedy(
 ) -> None:
     with pytest.raises(OptionError, match=f"mine.toml line {line}: .*{re.escape(said)}"):
         load(CAPE.replace(old, new, 1), tmp_path)
+
+
+def test_a_garment_has_a_largest_number_of_particles(tmp_path: Path) -> None:
+    def pieces(count: int, mirror: str = "") -> str:
+        return "".join(
+            f'[[piece]]\nname = "p{n}"\nsize = [16, 16]\npoints = [65, 63]\n{mirror.format(n)}'
+            for n in range(count)
+        )
+
+    assert load(pieces(4), tmp_path).particles == 4 * 65 * 63 <= MAX_POINTS
+    with limited_cost(), pytest.raises(OptionError) as caught:
+        load(pieces(64), tmp_path)
+    assert str(caught.value) == (
+        f"{tmp_path / 'mine.toml'} line 20: with piece p4 the garment has 20475 particles; at most"
+        f" {MAX_POINTS} are drawn: give its pieces fewer, or leave some out"
+    )
+    with pytest.raises(OptionError, match=r"line 14: with piece p2 the garment has 24570 parti"):
+        load(pieces(4, 'mirror = "q{}"\n'), tmp_path)
+    half = load(pieces(3), tmp_path)
+    with pytest.raises(OptionError, match=r"over has 24570 particles, 12285 of them in mine; at"):
+        dressed_player(make_wearer(), wear=(half, half))
+
+
+SHAPES = {
+    "grid": "size = [{0}, {0}]\npoints = [65, 2]",
+    "strip": "shape = 'strip'\nlength = {0}\nends = [[0, 0, 0], [{0}, 0, 0]]\npoints = 65",
+    "ring": "shape = 'ring'\nprofile = [[{0}, 9, 9], [0, 9, 9]]\npoints = [4, 65]",
+    "narrow ring": "shape = 'ring'\nprofile = [[9, {1}, {1}], [0, {1}, {1}]]\npoints = [64, 3]",
+    "disc": "shape = 'disc'\nradius = {1}\nrings = 32",
+    "polygon": "shape = 'polygon'\ncorners = [[0, 0], [3, 0], [0, 3]]\nspacing = {2}",
+}
+"""Pieces of a size, of a radius, and of a distance [texels]."""
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_particles_have_a_least_distance(shape: str, tmp_path: Path) -> None:
+    text = '[[piece]]\nname = "a"\n' + SHAPES[shape]
+    made = load(text.format(8, 8, 0.125), tmp_path)
+    (cut,) = cut_pieces(made)
+    assert math.isclose(len(cut.cloth.inv_mass), made.particles, rel_tol=0.1)
+    with (
+        limited_cost(),
+        pytest.raises(OptionError, match=r"line \d: (\w+) of piece a puts") as seen,
+    ):
+        load(text.format(0.01, 0.01, 0.09), tmp_path)
+    assert re.search(
+        "texels apart, and the least is 0.1; use .* or a larger piece", str(seen.value)
+    )
 
 
 def test_a_file_of_a_garment_has_a_largest_size(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ to the right, y up, its front towards +z; `turn` and `place` then move it. A wea
 origin, its feet on y = 0, and looks to +z.
 """
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -47,6 +48,11 @@ MAX_MESHES = 8
 """The most 3-D files of a garment."""
 MAX_PARTICLES = 65
 """The most particles along one side of a piece."""
+MAX_POINTS = 16_384
+"""The most particles of all pieces of a garment, and of those over it."""
+MIN_CELL = 0.1
+"""The least distance between particles along the longest rows of a piece [texels]; cloth is much
+thicker, so that finer cells only cover each other."""
 UNUSED_OPTIONS = (
     *("kind", "pose", "placement", "facing", "grid", "fabric", "pins", "contact"),
     *("layers", "pbr", "thickness"),
@@ -216,6 +222,17 @@ class GridPiece(GarmentPiece):
     hem: Extent | None = None
     slack: Annotated[float, Field(strict=True, ge=0.1, le=1)] = 1.0
 
+    @property
+    def particles(self) -> int:
+        """How many particles it has, without those of its mirrored piece."""
+        return self.points[0] * self.points[1]
+
+    @property
+    def cell(self) -> tuple[str, float]:
+        """See `StripPiece.cell`; along its longer edge."""
+        width, height = max(self.size[0], self.hem or 0), self.size[1]
+        return "points", min(width / (self.points[0] - 1), height / (self.points[1] - 1))
+
 
 class StripPiece(GarmentPiece):
     """A rope or ribbon from one place to another.
@@ -229,6 +246,16 @@ class StripPiece(GarmentPiece):
     length: Extent
     width: Extent = 1.0
     points: Count
+
+    @property
+    def particles(self) -> int:
+        """How many particles it has, without those of its mirrored piece."""
+        return 2 * self.points
+
+    @property
+    def cell(self) -> tuple[str, float]:
+        """The field that sets how close its particles are, and their least distance [texels]."""
+        return "points", self.length / (self.points - 1)
 
     @model_validator(mode="after")
     def _reaches(self) -> Self:
@@ -261,6 +288,19 @@ class RingPiece(GarmentPiece):
     square: Annotated[float, Field(strict=True, ge=1, le=16)] = 2.0
     open: Annotated[float, Field(strict=True, ge=0, le=300)] = 0.0
 
+    @property
+    def particles(self) -> int:
+        """How many particles it has, without those of its mirrored piece."""
+        return (self.points[0] + (self.open > 0)) * self.points[1]
+
+    @property
+    def cell(self) -> tuple[str, float]:
+        """See `StripPiece.cell`; around its widest ring."""
+        around = max(4 * math.hypot(wide, deep) for _, wide, deep in self.profile)
+        around *= 1 - self.open / 360
+        down = sum(map(math.dist, self.profile, self.profile[1:]))
+        return "points", min(around / self.points[0], down / (self.points[1] - 1))
+
 
 class DiscPiece(GarmentPiece):
     """A round cloth that lies level and faces up. radius: [texels]. rings: of particles.
@@ -271,6 +311,16 @@ class DiscPiece(GarmentPiece):
     shape: Literal["disc"]
     radius: Extent
     rings: Annotated[int, Field(strict=True, ge=1, le=32)]
+
+    @property
+    def particles(self) -> int:
+        """How many particles it has, without those of its mirrored piece."""
+        return 1 + 3 * self.rings * (self.rings + 1)
+
+    @property
+    def cell(self) -> tuple[str, float]:
+        """The field that sets how close its particles are, and their least distance [texels]."""
+        return "rings", self.radius / self.rings
 
 
 class PolygonPiece(GarmentPiece):
@@ -284,6 +334,20 @@ class PolygonPiece(GarmentPiece):
     shape: Literal["polygon"]
     corners: Annotated[tuple[Spot, ...], Field(min_length=3, max_length=64)]
     spacing: Extent
+
+    @property
+    def particles(self) -> int:
+        """About how many particles it has."""
+        around = area = 0.0
+        for a, b in zip(self.corners, (*self.corners[1:], self.corners[0]), strict=True):
+            around += math.dist(a, b)
+            area += (a[0] * b[1] - b[0] * a[1]) / 2
+        return round(around / 2 / self.spacing + area / (math.sqrt(0.75) * self.spacing**2))
+
+    @property
+    def cell(self) -> tuple[str, float]:
+        """The field that sets how close its particles are, and their least distance [texels]."""
+        return "spacing", self.spacing
 
     @field_validator("corners")
     @classmethod
@@ -476,6 +540,7 @@ class Garment(GarmentTable):
         """What does not fit together: where, and a message."""
         if not self.piece and self.wearer is None:
             yield ("piece",), "piece is empty; give a garment at least one, or a wearer"
+        yield from self._sizes_out_of_bounds()
         names: list[str] = []
         for number, piece in enumerate(self.piece):
             for field in ("name", "mirror"):
@@ -505,6 +570,39 @@ class Garment(GarmentTable):
                 if side.split(".")[0] not in names:
                     message = f"join {shown(side)} names no piece; use one of: {known}"
                     yield ("seam", number, "join"), message
+
+    def _sizes_out_of_bounds(self) -> Iterator[tuple[Place, str]]:
+        """Pieces whose cells are too small, and the piece with which it has too many particles."""
+        count = sum(each.particles for each in self.over)
+        if count > MAX_POINTS:
+            most = max(self.over, key=lambda each: each.particles)
+            yield (
+                ("over",),
+                f"over has {count} particles, {most.particles} of them in {most.name}; at most"
+                f" {MAX_POINTS} are drawn: leave garments out, or give them fewer points",
+            )
+        for number, piece in enumerate(self.piece):
+            field, cell = piece.cell
+            if cell < MIN_CELL:
+                fewer = "use a wider spacing" if field == "spacing" else f"use fewer {field}"
+                yield (
+                    ("piece", number, field),
+                    f"{field} of piece {piece.name} puts particles {cell:.2g} texels apart, and"
+                    f" the least is {MIN_CELL:g}; {fewer} or a larger piece",
+                )
+            before, count = count, count + piece.particles * (1 if piece.mirror is None else 2)
+            if before <= MAX_POINTS < count:
+                yield (
+                    ("piece", number, field),
+                    f"with piece {piece.name} the garment has {count} particles; at most"
+                    f" {MAX_POINTS} are drawn: give its pieces fewer, or leave some out",
+                )
+
+    @property
+    def particles(self) -> int:
+        """How many particles its cloth has, with that over it; see `GarmentPiece.particles`."""
+        own = sum(each.particles * (1 if each.mirror is None else 2) for each in self.piece)
+        return own + sum(each.particles for each in self.over)
 
     @property
     def texel(self) -> float:
