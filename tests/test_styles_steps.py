@@ -8,9 +8,11 @@ import pytest
 from test_styles import canvas, rippled
 
 from drapery import Banner, Settings
+from drapery.banner import DYES
 from drapery.cloth import grid
 from drapery.errors import OptionError
 from drapery.packs import open_packs
+from drapery.render import Material, TextureLayer
 from drapery.scenes import still
 from drapery.style import FLAG_SIZE, flag_material
 from drapery.styles import STEPS, Sheet, Style, StyleStep, find_style
@@ -142,6 +144,21 @@ def test_parchment_turns_white_into_its_own_colour_and_keeps_patterns_darker() -
     scale = layer.texels.shape[1] // 64
     white, black = (layer.texels[10 * scale, x * scale, :3].astype(int) for x in (2, 11))
     assert np.abs(white - [0xE6, 0xD3, 0xA3]).max() < 24 and (black < white - 60).all()
+
+
+@pytest.mark.parametrize("name", list(MATERIAL))
+def test_steps_of_materials_take_textures_of_any_size(name: str) -> None:
+    """Wings of wool are 30 texels wide, which do not divide the 64 of a sheet."""
+    noise = np.random.default_rng(5)
+    for height, width in ((1, 1), (60, 30), (68, 34), (7, 13), (22, 12), (64, 64), (130, 65)):
+        texels = noise.integers(0, 256, (height, width, 4), np.uint8)
+        small = TextureLayer(texels)
+        large = TextureLayer(texels.repeat(2, axis=0).repeat(2, axis=1), DYES["red"].rgb)
+        for layers in ((small,), (small, large)):
+            styled = MATERIAL[name](Material(layers))
+            for layer in styled.layers:
+                tall, wide = layer.texels.shape[:2]
+                assert tall * width == wide * height, (height, width, len(layers))
 
 
 def test_level_texels_are_flat_on_levels_and_leave_no_gap() -> None:

@@ -222,8 +222,16 @@ _DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)
 
 def _enlarged(material: Material, fine: int) -> tuple[Texels, int]:
     """The layers of a material as one, opaque, and its pixels a texel; at least `fine` of them."""
-    side = max(layer.texels.shape[1] for layer in material.layers)
+    merged = _merged(material)
+    side = merged.shape[1]
     times = max(1, fine * SHEET // side)
+    large = merged.repeat(times, axis=0).repeat(times, axis=1)
+    return large, max(1, side * times // SHEET)
+
+
+def _merged(material: Material) -> Texels:
+    """The layers of a material as one, as wide as the widest of them."""
+    side = max(layer.texels.shape[1] for layer in material.layers)
     merged: Texels | None = None
     for layer in material.layers:
         own = layer.texels.copy()
@@ -236,8 +244,7 @@ def _enlarged(material: Material, fine: int) -> tuple[Texels, int]:
         else:
             merged = lay_over(own, merged)
     assert merged is not None
-    large = merged.repeat(times, axis=0).repeat(times, axis=1)
-    return large, max(1, side * times // SHEET)
+    return merged
 
 
 def _sheet(material: Material, texels: Texels) -> Material:
@@ -255,7 +262,7 @@ def _dye_numbers(material: Material) -> Numbers:
     numbers = {dye.rgb: dye.number for dye in DYES.values()}
     tinted = [layer for layer in material.layers if layer.tint in numbers]
     if len(tinted) < len(material.layers) - 1 or not tinted:
-        return _nearest_dyes(_enlarged(material, 1)[0])
+        return _nearest_dyes(_merged(material))
     shape = max(layer.texels.shape[0] for layer in material.layers), side
     found = np.zeros(shape, np.intp)
     for layer in tinted:
