@@ -12,7 +12,7 @@ from typing import Any
 
 import typer.main
 
-from drapery.cli import command_line
+from drapery.commands.app import command_line
 from drapery.option import Option
 from drapery.packs import PACK_FORMATS
 from drapery.player_settings import PLAYER_OPTIONS

@@ -1,92 +1,18 @@
-"""The command line: its commands, and how errors are printed."""
+"""The command line: how it starts and ends, and how errors are printed."""
 
 import gc
 import signal
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from io import TextIOWrapper
 from types import FrameType
-from typing import Annotated, Any
-
-import typer
-from typer.exceptions import TyperException
+from typing import Any
 
 from drapery.commands.notices import adopt_warnings, say
-from drapery.commands.plain import PlainCommand, PlainGroup
+from drapery.commands.two_files import compare_files
 from drapery.errors import DraperyError
-
-COMMANDS = (
-    "render",
-    "animate",
-    "flat",
-    "show",
-    "blazon",
-    "letters",
-    "compare",
-    "layers",
-    "match",
-    "scene",
-    "garment",
-    "player",
-    "gallery",
-    "model",
-    "packs",
-    "batch",
-    "serve",
-    "studio",
-    "web",
-    "doctor",
-)
-"""Modules of `drapery.commands`, each with a function `run`, in the order of the help."""
-GROUPS = ("golden", "sheet", "style")
-"""Modules with several commands, each with an `app`."""
-
-
-def command_line(words: Sequence[str] = ()) -> typer.Typer:
-    """The command line; with only the command that is called, if the first word is one.
-
-    To import all commands and to make their options takes a fifth of the time of a picture.
-    """
-    app = typer.Typer(
-        cls=PlainGroup,
-        add_completion=False,
-        no_args_is_help=True,
-        pretty_exceptions_enable=False,
-    )
-    app.callback()(_without_command)
-    called = [name for name in (*COMMANDS, *GROUPS) if name in words[:1]]
-    for name in called or (*COMMANDS, *GROUPS):
-        module = import_module(f"drapery.commands.{name}")
-        if name in GROUPS:
-            for each in module.app.registered_commands:
-                each.cls = PlainCommand
-            app.add_typer(module.app, name=name)
-        else:
-            settings = getattr(module, "CONTEXT", None)
-            app.command(name, cls=PlainCommand, context_settings=settings)(module.run)
-    return app
-
-
-def _print_version(asked: bool) -> None:
-    if asked:
-        from drapery import __version__
-
-        print(f"drapery {__version__}")
-        raise typer.Exit
-
-
-def _without_command(
-    version: Annotated[
-        bool,
-        typer.Option(
-            "--version", callback=_print_version, is_eager=True, help="Print the version and end."
-        ),
-    ] = False,
-) -> None:
-    """Minecraft banners as pictures of real cloth."""
 
 
 class _Stopped(KeyboardInterrupt):
@@ -114,20 +40,15 @@ def main() -> None:
     received: list[int] = []
     try:
         with _ended_by_signals(received):
-            code = command_line(sys.argv[1:])(standalone_mode=False)
+            code = _run(sys.argv[1:])
     except DraperyError as error:
         say(str(error))
         code = 2
-    except TyperException as error:
-        # Without a command typer has printed the help, and there is no message.
-        if error.format_message():
-            say(f"{error.format_message()} (see `drapery --help`)")
-        code = error.exit_code
     except OSError as error:
         place = error.filename or "the output"
         say(f"{place}: {error.strerror or error}; correct that and try again")
         code = 2
-    except (KeyboardInterrupt, typer.Abort):
+    except KeyboardInterrupt:
         code = INTERRUPTED
     if code == INTERRUPTED:  # some versions of typer return it in place of the exception
         say("stopped")
@@ -136,6 +57,28 @@ def main() -> None:
     # Python would look for garbage among all objects, a tenth of a second before the process ends.
     gc.freeze()
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _run(words: list[str]) -> object:
+    """Run a command; its exit code, or anything else for 0."""
+    code = compare_files(words)
+    if code is not None:
+        return code
+    # Imported here: typer takes longer to load than two small pictures to compare.
+    from typer import Abort
+    from typer.exceptions import TyperException
+
+    from drapery.commands.app import command_line
+
+    try:
+        return command_line(words)(standalone_mode=False)
+    except TyperException as error:
+        # Without a command typer has printed the help, and there is no message.
+        if error.format_message():
+            say(f"{error.format_message()} (see `drapery --help`)")
+        return error.exit_code
+    except Abort:
+        return INTERRUPTED
 
 
 def _print_any_text() -> None:

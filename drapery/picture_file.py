@@ -51,7 +51,7 @@ def opened_picture(
     try:
         with warnings.catch_warnings(action="ignore"):
             _check_size(_webp_size(data), name, max_pixels, max_side)
-            image = Image.open(BytesIO(data), formats=list(formats))
+            image = _opened(data, formats)
             with image:
                 _check_size(image.size, name, max_pixels, max_side)
                 if image.format in ("JPEG", "MPO"):
@@ -70,6 +70,22 @@ def opened_picture(
     except Exception as error:  # Pillow's readers raise errors of many types
         said = " ".join(str(error).split())[:200]
         raise OptionError(f"{name} is a broken picture ({said}); save it again") from None
+
+
+def _opened(data: bytes, formats: Sequence[str]) -> "Image":
+    """What `Image.open` returns; for a PNG without the import of the readers of other formats."""
+    from PIL import Image, UnidentifiedImageError
+
+    width, height = struct.unpack_from(">II", data, 16) if len(data) >= 24 else (0, 0)
+    usual = width * height <= (Image.MAX_IMAGE_PIXELS or 0)
+    if not (usual and "PNG" in formats and data[:8] == b"\x89PNG\r\n\x1a\n"):
+        return Image.open(BytesIO(data), formats=list(formats))
+    from PIL.PngImagePlugin import PngImageFile
+
+    try:
+        return PngImageFile(BytesIO(data))
+    except (SyntaxError, IndexError, TypeError, struct.error):
+        raise UnidentifiedImageError from None
 
 
 def _check_size(size: tuple[int, int], name: str, max_pixels: int, max_side: int) -> None:

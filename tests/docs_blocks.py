@@ -19,7 +19,7 @@ from typing import Any
 import typer.main
 from markdown_it import MarkdownIt
 
-from drapery.cli import command_line
+from drapery.commands.app import command_line
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"

@@ -180,7 +180,7 @@ def test_numba_is_imported_only_for_kernels():
 
 def test_a_command_with_plain_options_imports_what_it_needs(tmp_path):
     """typer would import pydantic for every option, a sixth of the time of a picture."""
-    program = "import sys; from drapery.cli import command_line\n"
+    program = "import sys; from drapery.commands.app import command_line\n"
     program += (
         "words = ['flat', 'white', '-o', 'flat.png', '--scale', '2', '--pack', sys.argv[1]]\n"
     )

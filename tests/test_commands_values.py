@@ -7,7 +7,7 @@ import pytest
 from conftest import Run
 from typer.main import get_command
 
-from drapery.cli import command_line
+from drapery.commands.app import command_line
 
 
 def valued() -> Iterator[tuple[tuple[str, ...], list[str]]]:

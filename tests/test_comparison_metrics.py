@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from drapery.comparison.antialiasing import is_smoothed, perceived_difference
+from drapery.comparison.ignored import ignored_pixels, painted
 from drapery.comparison.metrics import BEYOND, SMOOTHED, WITHIN, difference_map, measure
-from drapery.comparison.tolerance import Tolerance, ignored_pixels, painted
+from drapery.comparison.tolerance import Tolerance
 from drapery.errors import OptionError
 
 Picture = NDArray[np.uint8]

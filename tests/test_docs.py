@@ -10,7 +10,7 @@ import pytest
 import typer.main
 import yaml
 
-from drapery.cli import command_line
+from drapery.commands.app import command_line
 from drapery.settings import NAMED_OPTIONS
 
 ROOT = Path(__file__).parent.parent

@@ -13,7 +13,7 @@ from PIL import Image
 from pydantic import ValidationError
 
 from drapery import Banner, draw, iter_frames, mesh_headers, save_model
-from drapery.cli import command_line
+from drapery.commands.app import command_line
 from drapery.errors import OptionError
 from drapery.garments import (
     ClothTexture,

@@ -11,8 +11,8 @@ from conftest import Run
 from cost import limited_cost
 
 from drapery import Banner, draw, settings
-from drapery.cli import command_line
 from drapery.cloth import Drag, Fabric, Gravity, SolverXPBD, Wind
+from drapery.commands.app import command_line
 from drapery.errors import OptionError
 from drapery.option import Option, limits, one_of, shown, whole, within
 from drapery.options import check_options

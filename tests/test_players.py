@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from drapery import animate, draw
-from drapery.cli import command_line
+from drapery.commands.app import command_line
 from drapery.errors import OptionError
 from drapery.garments import dressed_player, find_garment, make_wearer, motion_names, tailor
 from drapery.garments.motions import MAX_BYTES, KeyPose, Motion, bone_poses, find_motion

@@ -1,6 +1,5 @@
 """Output of commands on standard error: notes, warnings, progress."""
 
-import subprocess
 import sys
 import warnings
 from collections.abc import Callable, Iterator
@@ -63,6 +62,8 @@ def _say_compiling(function: Callable[..., object]) -> None:
 
 def _start_beside(module: str) -> None:
     """Run a module in another process, without waiting for it."""
+    import subprocess  # it takes long to load
+
     nowhere = subprocess.DEVNULL
     command = [sys.executable, "-m", module]
     with suppress(OSError):  # it only saves time

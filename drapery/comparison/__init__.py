@@ -12,9 +12,11 @@ from drapery.lazy import lazy_names
 if TYPE_CHECKING:
     from drapery.comparison.alignment import align
     from drapery.comparison.cost import Cost, cost_of
+    from drapery.comparison.difference import Difference
+    from drapery.comparison.files import MAX_FILE
+    from drapery.comparison.ignored import ignored_pixels, painted
     from drapery.comparison.loops import measure_pictures, padded
     from drapery.comparison.metrics import (
-        Difference,
         difference_map,
         eight_bits,
         errors,
@@ -34,7 +36,6 @@ if TYPE_CHECKING:
     )
     from drapery.comparison.panels import difference_panel, joined_panels, side_by_side
     from drapery.comparison.picture import (
-        MAX_FILE,
         Picture,
         as_picture,
         decode_picture,
@@ -47,9 +48,10 @@ if TYPE_CHECKING:
         html_report,
         write_text,
     )
-    from drapery.comparison.tolerance import EXACT, Tolerance, ignored_pixels, painted
+    from drapery.comparison.stills import measure_files
+    from drapery.comparison.tolerance import EXACT, Tolerance
     from drapery.comparison.variants import Variant, draw_variants
-    from drapery.comparison.words import difference_words
+    from drapery.comparison.words import compared_words, difference_words
 
 __all__ = [
     "EXACT",
@@ -67,6 +69,7 @@ __all__ = [
     "build_up_sheet",
     "compare",
     "compare_variants",
+    "compared_words",
     "cost_of",
     "data_address",
     "data_of",
@@ -81,6 +84,7 @@ __all__ = [
     "ignored_pixels",
     "joined_panels",
     "measure",
+    "measure_files",
     "measure_pictures",
     "padded",
     "painted",
@@ -99,9 +103,11 @@ __getattr__, __dir__ = lazy_names(
     {
         "comparison.alignment": ("align",),
         "comparison.cost": ("Cost", "cost_of"),
+        "comparison.difference": ("Difference",),
+        "comparison.files": ("MAX_FILE",),
+        "comparison.ignored": ("ignored_pixels", "painted"),
         "comparison.loops": ("measure_pictures", "padded"),
         "comparison.metrics": (
-            "Difference",
             "difference_map",
             "eight_bits",
             "errors",
@@ -121,7 +127,6 @@ __getattr__, __dir__ = lazy_names(
         ),
         "comparison.panels": ("difference_panel", "joined_panels", "side_by_side"),
         "comparison.picture": (
-            "MAX_FILE",
             "Picture",
             "as_picture",
             "decode_picture",
@@ -134,8 +139,9 @@ __getattr__, __dir__ = lazy_names(
             "html_report",
             "write_text",
         ),
-        "comparison.tolerance": ("EXACT", "Tolerance", "ignored_pixels", "painted"),
+        "comparison.stills": ("measure_files",),
+        "comparison.tolerance": ("EXACT", "Tolerance"),
         "comparison.variants": ("Variant", "draw_variants"),
-        "comparison.words": ("difference_words",),
+        "comparison.words": ("compared_words", "difference_words"),
     },
 )

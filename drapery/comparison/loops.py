@@ -1,19 +1,19 @@
 """The difference of two pictures of any sizes, and of loops, frame by frame."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.comparison.metrics import Difference, measure
+from drapery.comparison.difference import Difference, box_around
+from drapery.comparison.ignored import ignored_pixels
+from drapery.comparison.metrics import measure
 from drapery.comparison.picture import Picture
-from drapery.comparison.tolerance import EXACT, Box, Tolerance, ignored_pixels
+from drapery.comparison.tolerance import EXACT, Tolerance
+from drapery.comparison.words import named_frames
 from drapery.picture_pixels import Channels
-
-_MOST_NAMED = 8
-"""The most frames that are named."""
 
 
 def measure_pictures(
@@ -83,19 +83,6 @@ def _unlike(a: Picture, b: Picture) -> Iterator[str]:
             yield f"played {_times(a.plays)} and {_times(b.plays)}"
 
 
-def named_frames(numbers: Sequence[int]) -> str:
-    """The frames of a loop in words: runs are joined, and only the first ones are named."""
-    runs: list[list[int]] = []
-    for number in numbers:
-        if runs and number == runs[-1][1] + 1:
-            runs[-1][1] = number
-        else:
-            runs.append([number, number])
-    words = [str(a) if a == b else f"{a} to {b}" for a, b in runs[:_MOST_NAMED]]
-    more = " and more" if len(runs) > _MOST_NAMED else ""
-    return f"{'frame' if len(numbers) == 1 else 'frames'} {', '.join(words)}{more}"
-
-
 def _count(frames: int) -> str:
     return f"{frames} frame{'s' if frames != 1 else ''}"
 
@@ -119,7 +106,7 @@ def _joined(found: list[Difference]) -> Difference:
         smoothed=sum(each.smoothed for each in found),
         ignored=sum(each.ignored for each in found),
         hidden=sum(each.hidden for each in found),
-        box=_around([each.box for each in found if each.box and (each.beyond or not _any(found))]),
+        box=box_around(each.box for each in found if each.box and (each.beyond or not _any(found))),
         exceeded=next((each.exceeded for each in found if each.exceeded), ()),
         frames=tuple(number for number, each in enumerate(found, 1) if not each.agrees),
         ssim=_worst([each.ssim for each in found], least=True),
@@ -135,12 +122,3 @@ def _any(found: list[Difference]) -> bool:
 def _worst(values: list[float | None], least: bool = False) -> float | None:
     known = [value for value in values if value is not None]
     return (min if least else max)(known) if known else None
-
-
-def _around(boxes: list[Box]) -> Box | None:
-    """The box around boxes."""
-    if not boxes:
-        return None
-    left, top = min(box[0] for box in boxes), min(box[1] for box in boxes)
-    right = max(box[0] + box[2] for box in boxes)
-    return left, top, right - left, max(box[1] + box[3] for box in boxes) - top

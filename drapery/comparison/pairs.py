@@ -2,24 +2,26 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.banner.design import Banner
 from drapery.comparison.alignment import align
+from drapery.comparison.difference import Difference
 from drapery.comparison.loops import measure_pictures
-from drapery.comparison.metrics import Difference
 from drapery.comparison.panels import side_by_side
 from drapery.comparison.picture import as_picture
 from drapery.comparison.report import ReportEntry, data_address
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.comparison.variants import Variant, variant_of
-from drapery.comparison.words import difference_words
+from drapery.comparison.words import compared_words
 from drapery.errors import OptionError
 from drapery.render import Frame, contact_sheet
 from drapery.settings import Options, Settings
+
+if TYPE_CHECKING:
+    from drapery.banner.design import Banner
 
 
 @dataclass(frozen=True)
@@ -73,11 +75,8 @@ class Comparison:
 
     def line(self) -> str:
         """The result in one line."""
-        both = f"{self.first.label} and {self.other.label}"
-        words = difference_words(self.difference, self.tolerance)
-        if self.difference.same:
-            return f"{both} are {words}"
-        return f"{both}: {words}" + (f"; from {self.culprit} on" if self.culprit else "")
+        names = self.first.label, self.other.label
+        return compared_words(*names, self.difference, self.tolerance, self.culprit)
 
     def sheet(self) -> Frame:
         """Both pictures and their difference side by side."""
@@ -85,8 +84,8 @@ class Comparison:
 
 
 def compare(
-    first: Banner | Frame,
-    other: Banner | Frame,
+    first: "Banner | Frame",
+    other: "Banner | Frame",
     settings: Settings | None = None,
     *,
     tolerance: Tolerance = EXACT,

@@ -3,9 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.comparison.ignored import ignored_pixels
 from drapery.comparison.loops import padded
 from drapery.comparison.metrics import BEYOND, SAME, difference_map, eight_bits, errors
-from drapery.comparison.tolerance import EXACT, Tolerance, ignored_pixels
+from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.picture_pixels import Channels
 from drapery.render import Frame, Pixels, contact_sheet, enlarge, on_checker
 

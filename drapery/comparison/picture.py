@@ -11,20 +11,10 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageSequence
 
+from drapery.comparison.files import FORMATS, MAX_PIXELS, opened, picture_bytes
 from drapery.errors import OptionError
-from drapery.picture_file import opened_picture
 from drapery.picture_pixels import Channels, pixels_of, sixteen_bit_pixels
 from drapery.render import Animation, Frame, Pixels
-from drapery.user_files import read_user_file
-
-ENDINGS = (".png", ".apng", ".gif", ".webp", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
-"""The endings of pictures that are compared."""
-FORMATS = ("PNG", "GIF", "WEBP", "JPEG", "BMP", "TIFF")
-MAX_SIDE = 16384
-MAX_PIXELS = 1 << 28
-"""The most pixels in all frames of a picture."""
-MAX_FILE = 512 << 20
-"""The longest file [bytes]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,14 +74,12 @@ def as_picture(source: Any) -> Picture:
 
 def read_picture(path: Path) -> Picture:
     """The picture in a file. Raises OptionError for one that cannot be read or is too large."""
-    data = read_user_file(path, MAX_FILE, shorter="compare smaller pictures")
-    return decode_picture(data, str(path))
+    return decode_picture(picture_bytes(path), str(path))
 
 
 def decode_picture(data: bytes, name: str, formats: Sequence[str] = FORMATS) -> Picture:
     """The picture in a file's bytes. name: of the file in errors. Raises OptionError."""
-    limits = {"max_pixels": MAX_PIXELS, "max_side": MAX_SIDE}
-    with opened_picture(data, name, formats, **limits) as image:
+    with opened(data, name, formats) as image:
         count = getattr(image, "n_frames", 1)
         if count * image.width * image.height > MAX_PIXELS:
             raise OptionError(
@@ -100,7 +88,7 @@ def decode_picture(data: bytes, name: str, formats: Sequence[str] = FORMATS) -> 
             )
         if count > 1 and image.format in ("PNG", "GIF", "WEBP"):
             return _loop(image)
-        deep = sixteen_bit_pixels(image, lambda: opened_picture(data, name, formats, **limits))
+        deep = sixteen_bit_pixels(image, lambda: opened(data, name, formats))
         return Picture((deep if deep is not None else pixels_of(image, _depth(image, data)),))
 
 

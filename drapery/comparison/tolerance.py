@@ -3,17 +3,10 @@
 import math
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from drapery.errors import OptionError
-from drapery.render import Pixels
 
 Box = tuple[int, int, int, int]
 """Left, top, width and height [px]."""
-
-_PAINTED = 128
-"""From this alpha and this colour on a pixel of a mask is painted."""
 
 
 @dataclass(frozen=True)
@@ -76,39 +69,3 @@ class Tolerance:
 
 EXACT = Tolerance()
 """The tolerance of a comparison in which each difference counts."""
-
-
-def painted(mask: Pixels) -> NDArray[np.bool_]:
-    """Which pixels a mask picture leaves out of a comparison, shape [H, W].
-
-    Those that are opaque and not dark: white on black, or any bright colour on nothing.
-    """
-    bright: NDArray[np.bool_] = mask[..., :3].max(axis=-1) >= _PAINTED
-    return bright & (mask[..., 3] >= _PAINTED)
-
-
-def ignored_pixels(
-    size: tuple[int, int], boxes: tuple[Box, ...], mask: NDArray[np.bool_] | None = None
-) -> NDArray[np.bool_] | None:
-    """Which pixels do not count, shape [H, W]; None if all count.
-
-    size: height and width [px]. mask: see `painted`. Raises OptionError for a mask of another
-    size, or a box outside the picture, which would do nothing.
-    """
-    height, width = size
-    if mask is not None and mask.shape != (height, width):
-        raise OptionError(
-            f"the mask is {mask.shape[1]}x{mask.shape[0]} and the picture {width}x{height};"
-            " use a mask of the picture's size"
-        )
-    if not boxes:
-        return mask
-    ignored = np.zeros((height, width), bool) if mask is None else mask.copy()
-    for left, top, across, down in boxes:
-        if left >= width or top >= height:
-            raise OptionError(
-                f"ignored box {left},{top},{across},{down} lies outside the picture of"
-                f" {width}x{height}; move it"
-            )
-        ignored[top : top + down, left : left + across] = True
-    return ignored

@@ -3,18 +3,19 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from drapery.banner.design import Banner
-from drapery.banner.formats import read_designs
-from drapery.banner.formats.registry import choose_banner
+from drapery.comparison.files import ENDINGS
 from drapery.comparison.metrics import eight_bits
-from drapery.comparison.picture import ENDINGS, Picture, as_picture, read_picture
+from drapery.comparison.picture import Picture, as_picture, read_picture
 from drapery.errors import OptionError
-from drapery.pictures import draw
 from drapery.render import Frame
 from drapery.settings import Options, Settings
-from drapery.styles import StyleLike, find_style
+
+# What draws and reads designs is imported where it is used: pictures are compared without it.
+if TYPE_CHECKING:
+    from drapery.banner.design import Banner
+    from drapery.styles import StyleLike
 
 Axes = dict[str, list[tuple[str, dict[str, Any]]]]
 """The values of each thing that may vary: their labels, and the settings that they change."""
@@ -30,13 +31,15 @@ class Variant:
 
     label: str
     picture: Picture
-    banner: Banner | None = None
+    banner: "Banner | None" = None
     settings: Settings | None = None
 
     def with_layers(self, count: int) -> Frame:
         """The picture with the first `count` layers; a finished picture has no others."""
         if self.banner is None or self.settings is None:
             return self.frame
+        from drapery.pictures import draw
+
         return draw(replace(self.banner, layers=self.banner.layers[:count]), self.settings)
 
     @property
@@ -50,11 +53,13 @@ class Variant:
 
 
 def variant_of(
-    label: str, subject: Banner | Frame, settings: Settings | None, options: Options
+    label: str, subject: "Banner | Frame", settings: Settings | None, options: Options
 ) -> Variant:
     """A design drawn with these options, or a finished picture. Raises the errors of `draw`."""
     if isinstance(subject, Frame):
         return Variant(label, as_picture(subject))
+    from drapery.pictures import draw
+
     chosen = settings or Settings()
     chosen = replace(chosen, **options)
     return Variant(label, as_picture(draw(subject, chosen)), subject, chosen)
@@ -65,7 +70,7 @@ def draw_variants(
     settings: Settings,
     layer_modes: Sequence[str] = (),
     backends: Sequence[str] = (),
-    styles: Sequence[StyleLike] = (),
+    styles: "Sequence[StyleLike]" = (),
     *,
     form: str | None = None,
     number: int | None = None,
@@ -83,6 +88,8 @@ def draw_variants(
         if len(pictures) < len(subjects) or len(pictures) < 2:
             raise OptionError(f"{pictures[0]} is a picture; compare it only with other pictures")
         return [Variant(Path(p).name, read_picture(Path(p))) for p in pictures]
+    from drapery.styles import find_style
+
     packs = [subject for subject in subjects if _is_pack(subject)]
     designs = [subject for subject in subjects if subject not in packs]
     banners = [(text, _banner(text, form, number)) for text in designs]
@@ -96,13 +103,16 @@ def draw_variants(
     return _drawn(banners, settings, axes)
 
 
-def _banner(text: str, form: str | None, number: int | None) -> Banner:
+def _banner(text: str, form: str | None, number: int | None) -> "Banner":
+    from drapery.banner.formats import read_designs
+    from drapery.banner.formats.registry import choose_banner
+
     found = read_designs(text, form=form)
     return choose_banner(found, number if len(found) > 1 else None)
 
 
 def _drawn(
-    banners: list[tuple[str, Banner]],
+    banners: "list[tuple[str, Banner]]",
     settings: Settings,
     axes: Axes,
 ) -> list[Variant]:
@@ -122,6 +132,8 @@ def _drawn(
     }
     base = replace(settings, **fixed)
     ((axis, values),) = varied.items()
+    from drapery.pictures import draw
+
     made = []
     for number, (label, changes) in enumerate(values):
         banner = banners[number if axis == "designs" else 0][1]

@@ -1,8 +1,12 @@
 """What a comparison found, in words."""
 
-from drapery.comparison.loops import named_frames
-from drapery.comparison.metrics import Difference
+from collections.abc import Sequence
+
+from drapery.comparison.difference import Difference
 from drapery.comparison.tolerance import Tolerance
+
+_MOST_NAMED = 8
+"""The most frames that are named."""
 
 
 def difference_words(difference: Difference, tolerance: Tolerance) -> str:
@@ -11,6 +15,32 @@ def difference_words(difference: Difference, tolerance: Tolerance) -> str:
     What is beyond the tolerance is told apart from what is within it.
     """
     return "; ".join([*difference.unlike, *difference.exceeded, *_pixels(difference, tolerance)])
+
+
+def compared_words(
+    first: str, other: str, difference: Difference, tolerance: Tolerance, cause: str | None = None
+) -> str:
+    """The names of two pictures and how they differ, in one line.
+
+    cause: the layer from which on they differ.
+    """
+    words = difference_words(difference, tolerance)
+    if difference.same:
+        return f"{first} and {other} are {words}"
+    return f"{first} and {other}: {words}" + (f"; from {cause} on" if cause else "")
+
+
+def named_frames(numbers: Sequence[int]) -> str:
+    """The frames of a loop in words: runs are joined, and only the first ones are named."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][1] + 1:
+            runs[-1][1] = number
+        else:
+            runs.append([number, number])
+    words = [str(a) if a == b else f"{a} to {b}" for a, b in runs[:_MOST_NAMED]]
+    more = " and more" if len(runs) > _MOST_NAMED else ""
+    return f"{'frame' if len(numbers) == 1 else 'frames'} {', '.join(words)}{more}"
 
 
 def _pixels(difference: Difference, tolerance: Tolerance) -> list[str]:

@@ -1,0 +1,161 @@
+"""The difference of two PNG files of 8 bits a channel, by the sums that Pillow makes.
+
+The import of numpy takes longer than all else in the comparison of two small pictures, and pictures
+as arrays take the memory of two more. The figures are those of `measure`.
+"""
+
+from pathlib import Path
+from threading import Thread
+from typing import TYPE_CHECKING
+from warnings import catch_warnings
+
+from drapery.comparison.difference import Difference, box_around
+from drapery.comparison.files import opened, picture_bytes
+from drapery.comparison.tolerance import EXACT, Box, Tolerance
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+_STRIP = 32
+"""How many rows are compared at a time: they stay in the cache."""
+_SIZE, _KIND = slice(16, 24), slice(24, 29)
+"""Where in a PNG file the size of the picture and the kind of its pixels are."""
+_KINDS = (b"\x08\x02\0\0\0", b"\x08\x06\0\0\0")
+"""8 bits a channel of colour, without and with alpha, and not interlaced."""
+_CLEAR = [255, *[0] * 255]
+"""A table that makes white what is fully transparent, and all else black."""
+
+
+def measure_files(expected: Path, actual: Path, tolerance: Tolerance = EXACT) -> Difference | None:
+    """Measure a picture file against the expected one.
+
+    None for what only `measure_pictures` compares: other files than PNG stills of colours with 8
+    bits a channel, two sizes, and tolerances of more than channels and pixels. Raises OptionError
+    for a file that cannot be read or is broken.
+    """
+    data = picture_bytes(expected), picture_bytes(actual)
+    if not tolerance.limits().keys() <= {"channel", "pixels", "ratio"}:
+        return None
+    if not all(each[:8] == b"\x89PNG\r\n\x1a\n" and each[_KIND] in _KINDS for each in data):
+        return None
+    if data[0][_SIZE] != data[1][_SIZE]:
+        return None
+    pictures = _decoded(data, (str(expected), str(actual)))
+    if pictures is None:
+        return None
+    return _compared(*pictures, tolerance)
+
+
+def _decoded(data: tuple[bytes, bytes], names: tuple[str, str]) -> "tuple[Image, Image] | None":
+    """Both pictures; those of equal files are one. None if one needs the usual reader."""
+    if data[0] == data[1]:
+        one = _still(data[0], names[0])
+        return None if one is None else (one, one)
+    found: list[Image | None] = [None, None]
+    faults: list[BaseException] = []
+
+    def decode(number: int) -> None:
+        try:
+            found[number] = _still(data[number], names[number])
+        except BaseException as fault:
+            faults.append(fault)
+
+    # Each thread changes the filters of warnings and sets them back, in any order.
+    with catch_warnings():
+        beside = Thread(target=decode, args=(1,), daemon=True)
+        beside.start()
+        found[0] = _still(data[0], names[0])
+        beside.join()
+    if faults:
+        raise faults[0]
+    first, second = found
+    return None if first is None or second is None else (first, second)
+
+
+def _still(data: bytes, name: str) -> "Image | None":
+    """The picture; None for a loop, and for one whose alpha is in a chunk of its own."""
+    with opened(data, name, ("PNG",)) as image:
+        if getattr(image, "n_frames", 1) > 1 or "transparency" in image.info:
+            return None
+        image.load()
+        return image
+
+
+def _compared(old: "Image", new: "Image", tolerance: Tolerance) -> Difference:
+    """The figures of `measure`, strip by strip."""
+    if old.mode != new.mode:
+        old, new = old.convert("RGBA"), new.convert("RGBA")
+    width, height = old.size
+    count = width * height
+    beyond = hidden = total = 0
+    values, boxes, far_boxes = [0] * 256, [], []
+    for top in range(0, height, _STRIP) if old is not new else ():
+        area = _changed_area(old, new, (0, top, width, min(top + _STRIP, height)))
+        if area is None:
+            continue
+        change, unseen = _change(old.crop(area), new.crop(area))
+        hidden += unseen
+        worst = _lightest(change)
+        values = [a + b for a, b in zip(values, worst.histogram(), strict=True)]
+        total += sum(n * (value % 256) for value, n in enumerate(change.histogram()))
+        far = worst.point([255 * (value > tolerance.channel) for value in range(256)])
+        boxes.append(_moved(worst.getbbox(), area))
+        far_boxes.append(_moved(far.getbbox(), area))
+    beyond = sum(values[tolerance.channel + 1 :])
+    return Difference(
+        pixels=count,
+        changed=sum(values[1:]),
+        max_error=max(value for value in range(256) if value == 0 or values[value]),
+        mean_error=total / (4 * count),
+        beyond=beyond,
+        allowed=tolerance.allowed(count),
+        hidden=hidden,
+        box=box_around(filter(None, far_boxes if beyond else boxes)),
+    )
+
+
+def _changed_area(old: "Image", new: "Image", area: Box) -> Box | None:
+    """The corners of what differs in an area of both pictures, which is all that is measured."""
+    from PIL import ImageChops
+
+    change = ImageChops.difference(old.crop(area), new.crop(area))
+    inner: Box | None = change.getbbox(alpha_only=False)
+    if inner is None:
+        return None
+    left, top = area[:2]
+    return inner[0] + left, inner[1] + top, inner[2] + left, inner[3] + top
+
+
+def _change(old: "Image", new: "Image") -> "tuple[Image, int]":
+    """The absolute errors, and in how many pixels none can be seen though the bits differ."""
+    from PIL import ImageChops
+
+    change = ImageChops.difference(old, new)
+    if change.mode == "RGB":
+        return change, 0
+    clear = [picture.getchannel("A").point(_CLEAR) for picture in (old, new)]
+    if not any(mask.getbbox() for mask in clear):
+        return change, 0
+    every = sum(_lightest(change).histogram()[1:])
+    for picture, mask in zip((old, new), clear, strict=True):
+        picture.paste((0, 0, 0, 0), mask=mask)
+    change = ImageChops.difference(old, new)
+    return change, every - sum(_lightest(change).histogram()[1:])
+
+
+def _lightest(picture: "Image") -> "Image":
+    """The largest channel of each pixel, mode L."""
+    from PIL import ImageChops
+
+    first, *rest = picture.split()
+    for band in rest:
+        first = ImageChops.lighter(first, band)
+    return first
+
+
+def _moved(corners: Box | None, area: Box) -> Box | None:
+    """Corners in an area of a picture as left, top, width and height in the whole one."""
+    if corners is None:
+        return None
+    left, upper, right, lower = corners
+    return area[0] + left, area[1] + upper, right - left, lower - upper
