@@ -78,6 +78,7 @@ class Firefox:
         options = ["--no-remote", "--remote-debugging-port", "0", "--profile", str(folder)]
         command = [str(FIREFOX), *options, "about:blank"]
         self.process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=shown)
+        self.reader: threading.Thread | None = None
         try:
             self._connect()
         except BaseException:
@@ -93,7 +94,8 @@ class Firefox:
         late.start()
         address = self._address()
         late.cancel()
-        threading.Thread(target=self._drain, daemon=True).start()
+        self.reader = threading.Thread(target=self._drain, daemon=True)
+        self.reader.start()
         self.socket = create_connection(f"{address}/session", timeout=60, suppress_origin=True)
         self.count = 0
         self.send("session.new", capabilities={})
@@ -110,8 +112,9 @@ class Firefox:
 
     def _drain(self) -> None:
         assert self.process.stderr is not None
-        for _ in self.process.stderr:
-            pass
+        with self.process.stderr as lines:
+            for _ in lines:
+                pass
 
     def send(self, method: str, **parameters: Any) -> Any:
         """The result of a command."""
@@ -171,3 +174,8 @@ class Firefox:
                 process.wait(20)
             except subprocess.TimeoutExpired:
                 process.kill()
+                process.wait()
+        if self.screen.stdout is not None:
+            self.screen.stdout.close()
+        if self.reader is not None:
+            self.reader.join(20)  # it closes the pipe of the browser

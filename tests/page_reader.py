@@ -1,5 +1,6 @@
 """The component's reader of designs under node, which reads one text after another."""
 
+import atexit
 import json
 import shutil
 import subprocess
@@ -68,13 +69,20 @@ def _process() -> "subprocess.Popen[str]":
     script = _SCRIPT.replace("component/", f"{COMPONENT.as_uri()}/")
     command = [str(NODE), "--input-type=module", "-e", script]
     pipe = subprocess.PIPE
-    return subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, encoding="utf-8")
+    node = subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True, encoding="utf-8")
+    atexit.register(_end, node)
+    return node
+
+
+def _end(node: "subprocess.Popen[str]") -> None:
+    with node:  # closes its input, whose end it waits for
+        pass
 
 
 def read_in_page(what: str, text: str) -> Answer:
     """Read a text as a `design`, a `hash`, or the attribute `kind`, `wind` or `direction`.
 
-    The process ends with this one, whose end closes its input.
+    The process ends with this one.
     """
     node = _process()
     assert node.stdin is not None and node.stdout is not None

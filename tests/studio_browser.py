@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import pytest
+from compile_kernels import single
 from tracing import untraced_environment
 
 from drapery import Banner, draw
@@ -58,6 +59,12 @@ new MutationObserver(() => {
 """
 """Keeps the notices of a page, which go by themselves while a loaded machine looks elsewhere."""
 
+END_VIEWER = """
+const viewer = document.querySelector(".viewer")?.viewer;
+viewer?.end();
+return !!viewer;
+"""
+
 WIDE = (1280, 800)
 PHONE = (390, 844)
 
@@ -77,7 +84,8 @@ class Studio:
         )
         self.log: list[str] = []
         self.address = self._address()
-        threading.Thread(target=self._read, daemon=True).start()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
 
     def _address(self) -> str:
         assert self.process.stderr is not None
@@ -90,21 +98,25 @@ class Studio:
     def _read(self) -> None:
         # A pipe that nobody reads fills up and holds the server.
         assert self.process.stderr is not None
-        self.log.extend(self.process.stderr)
+        with self.process.stderr as lines:
+            self.log.extend(lines)
 
     def stop(self) -> int:
         """Ask it to end, and its exit code."""
         self.process.send_signal(signal.SIGTERM)
         try:
-            return self.process.wait(10)
+            return self.process.wait(60)
         except subprocess.TimeoutExpired:
             self.process.kill()
             raise
+        finally:
+            self._reader.join(10)  # it closes the pipe
 
 
 @pytest.fixture(scope="session")
 def compiled_kernels() -> None:
     """Fill the kernel cache, so that no deadline of a page's test includes a compiler's time."""
+    single()
     draw(Banner.parse("red creeper:lime"), view="hero", shadow=True, wind=4.0)
 
 
@@ -178,6 +190,12 @@ def open_address(driver: Any, address: str) -> None:
     driver.get_log("browser")
     driver.get(address)
     wait_until(lambda: driver.execute_script("return !!window.studio?.ready"))
+
+
+def end_live_cloth(driver: Any) -> None:
+    """Close the live view, which is drawn without a graphics card here, and takes the time of all
+    else."""
+    wait_until(lambda: driver.execute_script(END_VIEWER))
 
 
 def paste(driver: Any, text: str) -> None:

@@ -28,16 +28,21 @@ def service(*words: str) -> Iterator[tuple[str, subprocess.Popen[str]]]:
     """The command `drapery serve` with one worker, and its address."""
     command = [sys.executable, "-m", "drapery", "serve", "--port", "0", "--workers", "1", *words]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    assert process.stderr is not None
+    reader = None
     try:
-        assert process.stderr is not None
         line = next(line for line in process.stderr if "listening at" in line)
-        threading.Thread(target=process.stderr.read, daemon=True).start()
+        reader = threading.Thread(target=process.stderr.read, daemon=True)
+        reader.start()
         found = re.search(r"http://127\.0\.0\.1:(\d+)", line)
         assert found and int(found[1]) > 0, "port 0 is printed as the port that was chosen"
         yield found[0], process
     finally:
         process.kill()
         process.wait()
+        if reader is not None:
+            reader.join()
+        process.stderr.close()
 
 
 def get(url: str, timeout: float = 30, **more: Any) -> httpx.Response:

@@ -13,6 +13,7 @@ from typing import Any
 import httpx2 as httpx
 import numpy as np
 import psutil
+import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule, run_state_machine_as_test
@@ -137,6 +138,9 @@ def _pixels(data: bytes) -> np.ndarray:
         return np.asarray(image.convert("RGBA"))
 
 
+# The pack has one pattern only, which each picture says that is drawn here to compare.
+@pytest.mark.filterwarnings("ignore:not in .*, taken from our own art")
+@pytest.mark.filterwarnings("ignore:no texture comes from")
 def test_every_answer_is_right_or_states_its_reason() -> None:
     draw(Banner("red"), **OPTIONS)  # the worker finds the kernels in the cache
     with tempfile.TemporaryDirectory() as folder:

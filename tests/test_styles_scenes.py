@@ -1,5 +1,6 @@
 """Ready-made scenes and comparisons in styles."""
 
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -57,12 +58,23 @@ def test_each_picture_of_a_grid_is_steady_by_itself() -> None:
     assert len(frames) == 3 and frames[0].shape == (120, 120)
 
 
-@pytest.mark.parametrize("name", ["banner", "cape-pixel", "freefall", "skirt", "stress"])
-def test_scenes_of_every_kind_take_styles(name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("banner", None),
+        ("cape-pixel", "only its picture steps change something"),
+        ("freefall", None),
+        ("skirt", "no rectangle of cloth"),
+        ("stress", "no rectangle of cloth"),
+    ],
+)
+def test_scenes_of_every_kind_take_styles(name: str, said: str | None) -> None:
     entry = find_scene(name)
     text = {"side": "2"} if name == "stress" else {}
     clip, steps = Clip((64, 64), 1), find_style("cel") | find_style("tattered")
-    (frame,) = scene_frames(entry, entry.parameters(text), clip, "soft", last=True, style=steps)
+    with pytest.warns(UserWarning, match=said) if said else nullcontext():
+        given = entry.parameters(text)
+        (frame,) = scene_frames(entry, given, clip, "soft", last=True, style=steps)
     assert frame.pixels.shape == (64, 64, 4)
 
 
