@@ -62,6 +62,22 @@ def test_a_folder_that_is_a_file_is_one_line(drapery: Run, tmp_path: Path, comma
     assert (code, len(lines)) == (2, 1) and "taken" in lines[0]
 
 
+@pytest.mark.parametrize("command", ["update", "check"])
+@pytest.mark.parametrize("goldens", ["{}/elsewhere", "../elsewhere", "a/../../elsewhere", "link"])
+def test_goldens_lie_in_the_folder_of_their_file(
+    drapery: Run, tmp_path: Path, command: str, goldens: str
+) -> None:
+    elsewhere, own = tmp_path / "elsewhere", tmp_path / "own"
+    elsewhere.mkdir()
+    own.mkdir()
+    (own / "link").symlink_to(elsewhere, target_is_directory=True)
+    named = goldens.format(tmp_path.as_posix())
+    code, _, err = drapery("golden", command, file_of(own, f'goldens = "{named}"\n' + ONE_CASE))
+    assert (code, err.count("\n")) == (2, 1)
+    assert "is not in the folder of the file; name one there" in err
+    assert not list(elsewhere.iterdir())
+
+
 @pytest.mark.parametrize("note", ["{broken", '[{"x": 1}]', "[" * 9999, "7"])
 def test_a_golden_whose_note_was_harmed_is_compared_without_it(
     drapery: Run, tmp_path: Path, note: str

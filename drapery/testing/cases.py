@@ -23,6 +23,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError
 
 from drapery.errors import OptionError
+from drapery.option import shown
 from drapery.options import NAMES, check_options, one_line, unknown_names
 from drapery.settings import LOOP_OPTIONS, Settings
 from drapery.toml_text import parse_toml
@@ -55,7 +56,7 @@ class Case(BaseModel):
 
 
 class CaseFile(BaseModel):
-    """A file of cases. goldens: their folder, relative to the file."""
+    """A file of cases. goldens: their folder, relative to that of the file, in which it lies."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -78,8 +79,23 @@ def read_cases(path: Path) -> CaseFile:
         read = CaseFile.model_validate(raw)
     except ValidationError as error:
         raise OptionError(f"{path}: {_first_fault(error)}") from None
+    _check_folder(path, read.goldens)
     _check_names(path, read.case)
     return read
+
+
+def _check_folder(path: Path, goldens: str) -> None:
+    """Raise OptionError for a folder elsewhere: a stranger's file must not choose it."""
+    folder = path.parent.resolve()
+    try:
+        inside = (folder / goldens).resolve().is_relative_to(folder)
+    except (OSError, ValueError):  # a name that no folder can have
+        inside = False
+    if not inside:
+        raise OptionError(
+            f"{path}: goldens {shown(goldens)} is not in the folder of the file; name one there,"
+            ' such as "goldens"'
+        )
 
 
 def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
