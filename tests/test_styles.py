@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 from conftest import Run
+from cost import limited_cost
 from pydantic import Field
 
 from drapery import Banner, Settings, animate, draw
@@ -132,6 +133,75 @@ def test_a_file_of_a_style_has_a_largest_size(tmp_path: Path) -> None:
         Style.load(path)
     path.write_text('[[shape]]\nstep = "facets"\n' * MAX_STEPS, encoding="utf-8")
     assert len(Style.load(path).steps) == MAX_STEPS
+
+
+@pytest.mark.parametrize(
+    ("steps", "line", "said"),
+    [
+        (["picture.pixels size=64"] * 5, 5, "step 2 (pixels) makes pixels of 4096 x 4096; use si"),
+        (["picture.clean"] * 32, 26, "picture step 9 (clean) brings the cost of the picture steps"),
+        (["material.embroider"] * 32, 11, "material step 4 (embroider) brings the cost of the ma"),
+        (["shape.smooth"] * 32, 77, "shape step 26 (smooth) brings the cost of the shape steps to"),
+        (
+            ["picture.pixels size=8", *["picture.clean"] * 9, *["picture.pixels size=9"]],
+            32,
+            "picture step 11 (pixels) makes pixels of 72 x 72; use sizes whose product is at most",
+        ),
+    ],
+)
+def test_a_chain_of_steps_is_bounded(
+    steps: list[str], line: int, said: str, tmp_path: Path
+) -> None:
+    tables = []
+    for each in steps:
+        name, _, value = each.partition(" ")
+        kind, _, step_name = name.partition(".")
+        tables.append(f'[[{kind}]]\nstep = "{step_name}"\n{value}\n')
+    path = tmp_path / "my.toml"
+    path.write_text("".join(tables), encoding="utf-8")
+    with limited_cost(), pytest.raises(OptionError) as caught:
+        Style.load(path)
+    message = str(caught.value)
+    assert message.startswith(f"{path} line {line}: ") and said in message, message
+
+
+def test_styles_that_are_joined_are_one_chain() -> None:
+    wide = Style("wide", (StyleStep("picture", STEPS["picture"]["pixels"], {"size": 9}),))
+    with pytest.raises(OptionError, match=r"style wide \| wide: picture step 2 \(pixels\) makes"):
+        wide | wide
+    every = Style("", ())
+    for name in style_names():  # each with each other one may be joined
+        for other in style_names():
+            every = find_style(name) | find_style(other)
+    assert every.steps
+
+
+def test_a_step_does_not_divide_cloth_into_too_many_texels() -> None:
+    large = replace(rippled(), size=(257 * TEXEL, TEXEL))
+    for name in ("voxels", "level-texels", "swallow-tail", "rounded-hem", "fringe", "tear"):
+        with pytest.raises(OptionError, match="cloth of 257 x 1 texels is too large for a step"):
+            STEPS["shape"][name](large)
+
+
+def test_discs_around_marks_in_a_row_are_those_of_each_mark() -> None:
+    from drapery.styles.kernels import draw_marks
+    from drapery.styles.picture_steps import _disc
+
+    rng = np.random.default_rng(5)
+    source = rng.integers(0, 2**32, (20, 45), dtype=np.uint32)
+    marks = np.zeros((20, 48), np.uint8)
+    marks[:, :45] = rng.random((20, 45)) < 0.1
+    table = np.stack([np.arange(256)[::-1]] * 3).astype(np.uint8)
+    for radius in (0.0, 1.0, 2.5, 7.0):
+        reach, drawn = _disc(radius), source.copy()
+        draw_marks(drawn, source, marks.view(np.uint64), reach, table)
+        near = np.zeros(source.shape, bool)
+        for y, x in zip(*np.nonzero(marks), strict=True):
+            for row in range(max(0, y - len(reach) // 2), min(20, y + len(reach) // 2 + 1)):
+                side = reach[row - y + len(reach) // 2]
+                near[row, max(0, x - side) : x + side + 1] = True
+        wanted = np.where(near, ~source | 0xFF000000, source)
+        assert np.array_equal(drawn, wanted)
 
 
 def test_a_picture_that_a_style_changes_has_a_largest_size() -> None:

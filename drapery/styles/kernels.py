@@ -365,6 +365,7 @@ def draw_marks(
     height, width = words.shape
     radius = len(reach) // 2
     for y in range(height):
+        last = -width - 2 * radius  # the mark before in this row, whose disc is drawn
         for eight in range(eights.shape[1]):
             if eights[y, eight] == 0:
                 continue
@@ -374,10 +375,13 @@ def draw_marks(
                     continue
                 for row in range(max(0, y - radius), min(height, y + radius + 1)):
                     side = reach[row - y + radius]
-                    for column in range(max(0, x - side), min(width, x + side + 1)):
+                    for column in range(
+                        max(0, x - side, last + side + 1), min(width, x + side + 1)
+                    ):
                         red, green, blue = _bytes(source[row, column])
                         drawn = table[0, red] | np.int64(table[1, green]) << 8
                         words[row, column] = 0xFF000000 | drawn | np.int64(table[2, blue]) << 16
+                last = x
 
 
 @kernel

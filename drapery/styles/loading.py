@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from drapery.errors import OptionError
 from drapery.option import shown
+from drapery.styles.chain import chain_fault
 from drapery.styles.palette_files import read_palette
 from drapery.styles.step import STEP_KINDS, StyleStep, parameter_faults
 from drapery.styles.steps import STEPS
@@ -47,7 +48,11 @@ def read_style_file(path: str | Path) -> tuple[StyleFile, tuple[StyleStep, ...]]
         fault = error.errors()[0]
         place = tuple(fault["loc"])
         raise OptionError(f"{locate(path, text, place)}: {_complaint(fault, place)}") from None
-    return parsed, tuple(_steps(parsed, path, text))
+    steps = tuple(_steps(parsed, path, text))
+    if fault := chain_fault(steps):
+        where = locate(path, text, (fault.kind, fault.number, "step"))
+        raise OptionError(f"{where}: {fault.message}")
+    return parsed, steps
 
 
 def _steps(parsed: StyleFile, path: str | Path, text: str) -> Iterator[StyleStep]:

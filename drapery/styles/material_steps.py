@@ -25,6 +25,7 @@ from drapery.styles.palettes import (
     PaletteColours,
     use_palette,
 )
+from drapery.styles.step import costs
 
 SHEET = 64
 """Width of a sheet [texels]."""
@@ -32,6 +33,7 @@ SHEET = 64
 Numbers = NDArray[np.intp]
 
 
+@costs(8)
 def weave(
     material: Material,
     *,
@@ -51,6 +53,7 @@ def weave(
     return _sheet(material, _shaded(texels, (1 - depth * (1 - height)) * uneven))
 
 
+@costs(16)
 def felt(
     material: Material,
     *,
@@ -73,6 +76,7 @@ def felt(
     return _sheet(material, _shaded(texels[rows, columns], light))
 
 
+@costs(32)
 def embroider(
     material: Material,
     *,
@@ -96,6 +100,7 @@ def embroider(
     return _sheet(material, _shaded(texels, np.where(dyes == ground, linen * seam, stitched)))
 
 
+@costs(16)
 def hatch(
     material: Material,
     *,
@@ -128,6 +133,7 @@ def hatch(
     return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
 
 
+@costs(24)
 def stained_glass(
     material: Material,
     *,
@@ -169,6 +175,7 @@ def palette(
     return _sheet(material, as_pixels(words))
 
 
+@costs(4)
 def age(
     material: Material,
     *,
@@ -191,6 +198,7 @@ def age(
     )
 
 
+@costs(4)
 def parchment(
     material: Material,
     *,

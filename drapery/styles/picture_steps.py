@@ -25,6 +25,7 @@ from drapery.styles.palettes import (
     thresholds,
     use_palette,
 )
+from drapery.styles.step import costs
 
 DARK, BRIGHT = 0.1, 0.5
 """Cosines to the light between which cel shading divides its steps: a cloth's folds are shallow."""
@@ -60,6 +61,7 @@ def shade(
     return canvas.painted(as_pixels(drawn))
 
 
+@costs(8)
 def outline(
     canvas: Canvas,
     *,
@@ -199,6 +201,7 @@ def glow(
     return _laid_under(canvas, 0, 0, radius, colour, strength)
 
 
+@costs(3)
 def paper(
     canvas: Canvas,
     *,

@@ -11,7 +11,7 @@ from pydantic import Field
 from drapery.render.buffers import Buffers
 from drapery.styles.canvas import VISIBLE, Canvas
 from drapery.styles.colours import Words, as_pixels
-from drapery.styles.step import over_time
+from drapery.styles.step import costs, over_time
 
 COLOUR = np.uint32(0xFFFFFF)
 """The part of a word that is not alpha."""
@@ -35,6 +35,7 @@ def pixels(
     return canvas.coarse(size)
 
 
+@costs(16)
 @over_time
 def limit(
     canvases: Sequence[Canvas],
@@ -59,6 +60,7 @@ def limit(
     return _painted(canvases, drawn)
 
 
+@costs(12)
 def clean(canvas: Canvas) -> Canvas:
     """No orphans: a pixel unlike all eight around it gets the most frequent colour of those."""
     words = canvas.words()
@@ -77,6 +79,7 @@ def clean(canvas: Canvas) -> Canvas:
     return canvas.painted(as_pixels(words))
 
 
+@costs(6)
 @over_time
 def steady(
     canvases: Sequence[Canvas],

@@ -8,10 +8,12 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.elementary import arctan2, cos, sin
+from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.vectors import dots
 from drapery.style.uv_mapping import UVMapping
 from drapery.styles.sheet import Sheet, grid_lattice, without_cells
+from drapery.styles.step import costs
 
 MAX_PARTICLES = 257
 """The most particles along one side of a sheet after a step."""
@@ -34,6 +36,7 @@ def thickness(
     return replace(sheet, thickness=texels * sheet.texel)
 
 
+@costs(4)
 def smooth(
     sheet: Sheet,
     *,
@@ -155,6 +158,7 @@ def level_texels(
     return _blocks(front, back, _texel_uvs((across, down), sheet.uv_mapping))
 
 
+@costs(4)
 def swallow_tail(
     sheet: Sheet,
     *,
@@ -167,6 +171,7 @@ def swallow_tail(
     return _cut(sheet, np.abs(column / across - 0.5) * 2 >= reach)
 
 
+@costs(4)
 def rounded_hem(
     sheet: Sheet,
     *,
@@ -180,6 +185,7 @@ def rounded_hem(
     return _cut(sheet, below * below + aside * aside <= 1 + (below == 0))
 
 
+@costs(4)
 def fringe(
     sheet: Sheet,
     *,
@@ -188,7 +194,7 @@ def fringe(
     seed: Annotated[int, Field(ge=0, le=2**31, description="which lengths")] = 0,
 ) -> Sheet:
     """Threads at the lower edge, every other one of them cut out, of uneven lengths."""
-    across, down = (threads * side for side in _texels(sheet))
+    across, down = _texels(sheet, threads)
     least, most = -(-length * threads // 2), length * threads
     chance = np.random.default_rng(seed)
     lengths = chance.integers(least, most + 1, across)
@@ -197,6 +203,7 @@ def fringe(
     return _cut(sheet, solid | ((column % 2 == 0) & (row < reach)))
 
 
+@costs(4)
 def tear(
     sheet: Sheet,
     *,
@@ -336,9 +343,14 @@ def _least_beside(depths: Array, shifts: Array) -> Array:
     return least
 
 
-def _texels(sheet: Sheet) -> tuple[int, int]:
-    """How many texels the sheet has across and down."""
-    across, down = (max(1, round(side / sheet.texel)) for side in sheet.size)
+def _texels(sheet: Sheet, parts: int = 1) -> tuple[int, int]:
+    """How many texels the sheet has across and down, or parts of texels. Raises OptionError."""
+    across, down = (parts * max(1, round(side / sheet.texel)) for side in sheet.size)
+    if max(across, down) >= MAX_PARTICLES:
+        raise OptionError(
+            f"cloth of {across // parts} x {down // parts} texels is too large for a step that"
+            f" divides it into {across} x {down} parts; at most {MAX_PARTICLES - 1} a side are made"
+        )
     return across, down
 
 

@@ -19,6 +19,7 @@ from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
 from drapery.settings import Lighting, Settings
 from drapery.styles.canvas import Canvas, laid_over
+from drapery.styles.chain import chain_fault, makes_pixels
 from drapery.styles.colours import as_pixels
 from drapery.styles.sheet import Sheet
 from drapery.styles.step import StepKind, StyleStep, as_toml, parameter_lines
@@ -40,7 +41,8 @@ class Style:
     light, samples: those of a picture that gives none, see `Settings`; None leaves them.
     description: one line about it.
 
-    `one | other` has the steps of both, those of `one` first. Raises OptionError.
+    `one | other` has the steps of both, those of `one` first. Raises OptionError, also for steps
+    that together exceed the bounds of `styles.chain`.
     """
 
     name: str
@@ -57,6 +59,8 @@ class Style:
         if not all(isinstance(step, StyleStep) for step in self.steps):
             raise OptionError(f"style {self.name}: a step is not a StyleStep; make it one")
         object.__setattr__(self, "steps", tuple(self.steps))
+        if fault := chain_fault(self.steps):
+            raise OptionError(f"style {self.name}: {fault.message}")
 
     def __or__(self, other: "Style") -> "Style":
         return Style(
@@ -161,7 +165,7 @@ class Style:
         self._check_samples(width * height * samples)
         if isinstance(scene, Frame):
             canvas = Canvas(scene.pixels, partial(_flat_buffers, scene))
-        elif steps and _makes_pixels(steps[0]):
+        elif steps and makes_pixels(steps[0]):
             canvas = _large_pixels(scene, dict(steps[0].parameters)["size"], draw_scene)
             steps = steps[1:]
         else:
@@ -221,12 +225,6 @@ def _flat_buffers(frame: Frame) -> Buffers:
     found.uv[..., 0] = np.where(shown, (np.arange(size[0]) + 0.5) / size[0], 0)
     found.uv[..., 1] = np.where(shown, (np.arange(size[1])[:, None] + 0.5) / size[1], 0)
     return found
-
-
-def _makes_pixels(step: StyleStep) -> bool:
-    from drapery.styles.pixel_steps import pixels
-
-    return step.function is pixels
 
 
 def _large_pixels(scene: Scene, size: int, draw_scene: DrawScene) -> Canvas:
