@@ -12,15 +12,17 @@ import zipfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache, partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 from unittest import mock
 from urllib.parse import quote, urlencode
 
+import fuzz_files
 import fuzzing
 import hostile
 import numpy as np
 import pack_maker
 import page_reader
+from fuzzing import Target
 
 from drapery import Banner, cli
 from drapery.banner.formats import FORMS, datapack, parse_banner, structure
@@ -65,14 +67,6 @@ COMMANDS = {
 """Words on lines of their own; none of these draws, since the target's folder does not exist."""
 
 
-class Target(NamedTuple):
-    """A reader: valid inputs, and how to change them."""
-
-    read: Callable[[Any], Iterable[Any]]
-    samples: Sequence[Any]
-    mutate: Callable[[random.Random, Sequence[Any]], Any]
-
-
 def targets() -> dict[str, Target]:
     """All readers by name."""
     readers, samples = fuzzing.binary_readers(), fuzzing.binary_samples()
@@ -96,6 +90,7 @@ def other_targets() -> dict[str, Target]:
         found[f"cases.{ending}"] = Target(_file_reader(ending, _cases), [text], _mutate_text)
     for name, samples in COMMANDS.items():
         found[f"command {name}"] = Target(_command(name), samples, fuzzing.mutate_text)
+    found |= fuzz_files.file_targets(_folder())
     with contextlib.suppress(ImportError):  # the service is an extra
         queries = [
             urlencode({"design": GIVE, "size": "32x32", "seed": 3}),

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import nbtlib
 import world_maker as make
@@ -40,6 +40,14 @@ MAX_TAGS = 20_000
 ANY_TEXT = "any text"
 GZIP = b"\x1f\x8b"
 _STATUS, _CLEAR = Path("/proc/self/status"), Path("/proc/self/clear_refs")
+
+
+class Target(NamedTuple):
+    """A reader: valid inputs, and how to change them."""
+
+    read: Callable[[Any], Iterable[Any]]
+    samples: Sequence[Any]
+    mutate: Callable[[random.Random, Sequence[Any]], Any]
 
 
 @dataclass

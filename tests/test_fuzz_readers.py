@@ -1,4 +1,4 @@
-"""A slice of the fuzzing of packs, manifests, cases, queries and command lines."""
+"""A slice of the fuzzing of all readers of files, of queries, of command lines and of pages."""
 
 import fuzz_targets
 import fuzzing
