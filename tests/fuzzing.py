@@ -425,6 +425,8 @@ _MORE_TEXTS = {
         "{BlockEntityTag:{Base:15,Patterns:[{Pattern:cre,Color:10}]}}\nclear @s red_banner\n"
         "data modify storage a:b c set value [{id:red_banner},[{id:'banner',Count:1}],5]\n"
         "execute as @a[nbt=!{a:1}] run fill 1 2 3 4 5 6 red_banner replace blue_banner\n",
+        "give @p red_banner[\n  banner_patterns=[\n    {pattern:cross,color:red}\n  ]\n]\nsay {\n"
+        "give @p\n  blue_banner[banner_patterns=[{pattern:cro\\\nss,color:red}]]\n  1\n",
     ],
     "kubejs": [
         "const tag = {BlockEntityTag:{Patterns:[{Pattern:'cre',Color:5}]}}\n"
@@ -432,6 +434,12 @@ _MORE_TEXTS = {
         "{pattern:creeper,color:lime}]]`, 'stick'])\nItem.of('shield').withCount(2)"
         ".set('base_color', 'red').set('banner_patterns', [{pattern:'cross',color:'red'}])\n"
         "Item.of('red_banner', {'minecraft:banner_patterns':[]}).withNBT({})",
+    ],
+    "javascript": [
+        "/* a */ const b = {id: 'minecraft:red_banner', count: 2 * n, use() { go(); },\n"
+        "components: {banner_patterns: [{pattern: `cross`, color: 'red',}], 'a': (x) => [x]}};\n"
+        "// b\nmodule.exports = [{base: dark ? 'red' : 'blue', layers, key: 'it\\'s'}];\n"
+        "f({base: 'lime', kind: 'shield', layers: [{pattern: \"cre\\x65per\", color: 'black'}]})",
     ],
     "loot-table": [
         '{"functions": [{"function": "set_components", "components": {"banner_patterns": '

@@ -250,3 +250,47 @@ def test_worldedit_replaces_one_banner_by_another() -> None:
 def test_what_belongs_to_a_block_is_not_named_as_left_out(text: str, drapery: Run) -> None:
     code, _, err = drapery("show", text, "--as", "json")
     assert (code, err) == (0, "")
+
+
+BROKEN = [
+    f"give @p red_banner[\n    banner_patterns=[\n        {LAYER}\n    ]\n] 1",
+    f"give @p red_banner[ \\\n  banner_patterns=[ \\\n    {LAYER} \\\n  ] \\\n] 1",
+    f"give @p\n  red_banner[banner_patterns=[{LAYER}]]\n  1",
+    f"setblock ~ ~ ~\n  red_banner[rotation=4]\n  {{patterns:[{LAYER}]}}",
+    f"execute as @a at @s\n\trun give @s\n\t\tred_banner[banner_patterns=[\n{LAYER}]]",
+    "give @p red_banner{\n  BlockEntityTag: {\n Patterns: [\n {Pattern:cre,Color:5}\n]}} 1",
+]
+
+
+@pytest.mark.parametrize("command", BROKEN)
+def test_a_command_may_be_broken_over_lines(command: str) -> None:
+    assert parse_banner(command) == LIME
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = parse_banners(f"say it's [\n{command}\nsay done\n{command}\n")
+    assert [one.banner for one in found] == [LIME, LIME]
+    assert found[0].where.startswith("line 2 ")
+
+
+@pytest.mark.parametrize(
+    "broken", ["red_banner[banner_pat\nterns=", "banner_patterns=[{patte\nrn", "color:li\r\nme"]
+)
+def test_a_command_may_be_broken_within_a_word(broken: str) -> None:
+    whole = broken.replace("\r", "").replace("\n", "")
+    command = "/give @p red_banner[banner_patterns=[{pattern:creeper,color:lime}]] 1"
+    assert whole in command
+    assert parse_banner(command.replace(whole, broken)) == LIME
+
+
+def test_a_bracket_that_is_never_closed_takes_no_other_command() -> None:
+    text = f"give @p red_banner[\n  banner_patterns=[{LAYER}\n{GIVE}\n"
+    with pytest.warns(UserWarning, match="line 2, column .* the text ends too early"):
+        found = parse_banners(text)
+    assert [(one.banner, one.where) for one in found] == [(LIME, "line 3 red_banner")]
+
+
+def test_a_list_of_commands_in_yaml_is_read() -> None:
+    text = f"commands:\n  - '{GIVE}'\n  - \"give @p blue_banner[banner_patterns=[]]\"\n"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert [one.banner for one in parse_banners(text)] == [LIME, Banner("blue")]

@@ -36,6 +36,23 @@ def in_yaml(tree: Any) -> str:
     return yaml.safe_dump(tree, sort_keys=False)
 
 
+def in_javascript(tree: Any) -> str:
+    """The object as the value of a constant: keys without quotes, single quotes, commas at ends."""
+    if isinstance(tree, dict):
+        pairs = [
+            f"{key if key.isidentifier() else repr(key)}: {in_javascript(tree[key])},"
+            for key in tree
+        ]
+        return "{ " + " ".join(pairs) + " }"
+    if isinstance(tree, list):
+        return "[" + "".join(f"{in_javascript(x)}, " for x in tree) + "]"
+    return repr(tree) if isinstance(tree, str) else json.dumps(tree)
+
+
+def in_constant(tree: Any) -> str:
+    return f"const banner = {in_javascript(tree)}; // a note"
+
+
 def components(words: str, tree: Any) -> str:
     """A command with `[a=…,b=…]`, or with a tag in place of components that are no mapping."""
     if not isinstance(tree, dict):
@@ -52,6 +69,7 @@ def samples() -> Iterator[tuple[str, Sample]]:
         yield name, Sample(yaml.safe_load(FORMS[name].example), in_yaml)
     for name in ("loot-table", "wynncraft", "loom-assistant", "json", "bedrock", "item"):
         yield name, Sample(parse_snbt(FORMS[name].example), json.dumps)
+        yield f"{name} in JavaScript", Sample(parse_snbt(FORMS[name].example), in_constant)
     patterns = {"minecraft:banner_patterns": LAYERS}
     trees: dict[str, Any] = {
         "shield of deluxemenus": {
@@ -261,6 +279,7 @@ WRAPPED = [
     "  {}  ",
     "'{}'",
     '"{}"',
+    "commands:\n  - '{}'",
     "`{}`",
     "```\n{}\n```",
     "{} # a note: RED:CROSS",
@@ -275,6 +294,10 @@ WRAPPED = [
 ]
 
 
+BREAKS = ("\n", "\n    ", "\\\n", " \\\n  ")
+"""Breaks of a line, with and without a backslash."""
+
+
 @pytest.mark.parametrize("form", FORMS)
 def test_what_surrounds_a_text_never_makes_another_banner(form: str) -> None:
     example = FORMS[form].example
@@ -286,5 +309,8 @@ def test_what_surrounds_a_text_never_makes_another_banner(form: str) -> None:
         example.replace("\n", "\n\n"),
     ]
     texts += [example.replace("\n", "\n  "), example.replace("\n", " # a note\n")]
+    texts += [example.replace(mark, f"{mark}{end}") for mark in ("[", ",", " ") for end in BREAKS]
+    texts += [f"{example}\n{example.replace('[', '[' + end)}" for end in BREAKS]
+    texts += [json.dumps(example), json.dumps(json.dumps(example)), f"'{json.dumps(example)}'"]
     faults = [wrong for text in texts if (wrong := fault(text, expected))]
     assert not faults, f"{len(faults)} of {len(texts)}:\n" + "\n".join(faults)

@@ -8,6 +8,7 @@ banner.
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from drapery.banner.design import Banner
@@ -95,6 +96,21 @@ def read_command(text: str, *, line: int = 1) -> list[FoundBanner]:
 
     Raises DesignError with the place, also if there is no banner.
     """
+    try:
+        return _some_of_command(text, line)
+    except DesignError:
+        whole = _WRAP.sub("", text)
+        if whole != text:
+            with suppress(DesignError):
+                return _some_of_command(whole, line)
+        raise
+
+
+_WRAP = re.compile(r"(?<=[\w:])\r?\n(?=\w)")
+"""A line break within a word, where a window or a message broke the line at its width."""
+
+
+def _some_of_command(text: str, line: int) -> list[FoundBanner]:
     found = banners_of_command(text, line=line)
     if not found:
         raise DesignError(_nothing(text))

@@ -5,6 +5,7 @@ shields and by versions before 1.13. Colours of Bukkit before 1.12 are read too.
 """
 
 import re
+from collections.abc import Iterator
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.dyes import DYES
@@ -45,13 +46,32 @@ def recognises(text: str) -> bool:
 def read(text: str) -> list[FoundBanner]:
     """All banners of the text, such as the lines of a kit. Raises DesignError with the place."""
     found = []
-    for number, line in enumerate(text.split("\n"), 1):
+    for number, line in _lines(text):
         match = _ITEM.search(line)
         if match:
             found.append(_item(match, f"line {number} {match[1]}"))
     if not found:
         raise DesignError(f"no item of EssentialsX in the text: write it as {EXAMPLE}")
     return found
+
+
+def _lines(text: str) -> Iterator[tuple[int, str]]:
+    """The lines with their numbers. A line of nothing but parts of an item goes on the last one."""
+    first, pieces = 0, [""]
+    for number, line in enumerate(text.split("\n"), 1):
+        words = line.split()
+        if words and all(map(_PART.fullmatch, words)):
+            pieces.append(line.strip() if pieces[-1].endswith(",") else f" {line.strip()}")
+        else:
+            yield first, "".join(pieces)
+            first, pieces = number, [line]
+        pieces[-1] = pieces[-1].rstrip().rstrip("\\").rstrip()
+    yield first, "".join(pieces)
+
+
+_PART = re.compile(
+    r"\\|[0-9]{1,8}\\?|basecolou?r[:+',;.]\S*|[a-z_]{1,40},[0-9]{0,8}\\?", re.IGNORECASE
+)
 
 
 def _item(match: "re.Match[str]", at: str) -> FoundBanner:

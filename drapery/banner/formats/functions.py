@@ -1,9 +1,10 @@
 """Function files (`.mcfunction`), and any text of several commands: one command on a line.
 
-Comments and commands that hold no items are skipped; a line that ends in a backslash goes on in the
-next one; a macro line begins with `$` and has parameters such as `$(dye)`.
+Comments and commands that hold no items are skipped; a line that ends in a backslash, or within
+brackets, goes on in the next one; a macro line begins with `$` and has parameters such as `$(dye)`.
 """
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
@@ -51,6 +52,11 @@ _SPOKEN = frozenset({"me", "msg", "say", "scoreboard", "team", "teammsg", "tell"
 
 _SHOWN = frozenset({"bossbar", "dialog", "particle", "tellraw", "title", "titleraw"})
 """The commands that show messages or items, in which an item or a command may hold a design."""
+
+
+_KNOWN = COMMANDS | _OTHERS
+_OPENING = COMMANDS | _SHOWN
+"""The commands whose brackets may be closed in a later line."""
 
 
 def recognises(text: str) -> bool:
@@ -113,27 +119,64 @@ def write(banner: Banner) -> str:
 
 
 def lines_of(text: str) -> Iterator[tuple[int, str]]:
-    """The lines that are not empty, with their numbers. A line that goes on has several."""
-    pending, first = "", 0
+    """The commands and comments, with the numbers of their first lines. One may have several."""
+    parts: list[str] = []
+    first, depth, may_open = 0, 0, False
     for number, line in enumerate(text.split("\n"), 1):
-        line = _joined(pending, line) if pending else line
-        first = first if pending else number
-        ended = line.rstrip()
-        if ended.endswith("\\") and not ended.lstrip().startswith("#"):
-            pending = ended[:-1] or " "
-            continue
-        pending = ""
-        if ended:
-            yield first, line
-    if pending.strip():
-        yield first, pending + "\\"
+        if parts and not _goes_on(parts, depth, line):
+            yield first, _joined(parts)
+            parts = []
+        if not parts:
+            first, depth, may_open = number, 0, _command(line) in _OPENING
+        if parts or line.strip():
+            parts.append(line)
+            if may_open:
+                depth = max(0, depth + _opened(line))
+    if parts:
+        yield first, _joined(parts)
 
 
-def _joined(start: str, line: str) -> str:
-    """A line and the next one. A line break stays between them, except within a word."""
-    if (start[-1:].isalnum() or start[-1:] in "_:") and line.strip()[:1].isalnum():
-        return start + line.lstrip()
-    return f"{start}\n{line}"
+def _goes_on(parts: list[str], depth: int, line: str) -> bool:
+    """Whether a line goes on the command before it, which has `depth` open brackets."""
+    if _has_backslash(parts[-1]):
+        return not parts[0].lstrip().startswith("#")
+    name = _command(line)
+    if name.startswith("#") or name in _KNOWN:
+        return False
+    return depth > 0 or (
+        name != "" and _indent(line) > _indent(parts[0]) and _command(parts[0]) in COMMANDS
+    )
+
+
+def _indent(line: str) -> int:
+    return len(line) - len(line.lstrip())
+
+
+def _has_backslash(line: str) -> bool:
+    return line.rstrip().endswith("\\")
+
+
+_BRACKET = re.compile(r"""[\[\]{}]|"(?:[^"\\]|\\.)*(?:"|\\?\Z)|'(?:[^'\\]|\\.)*(?:'|\\?\Z)""")
+
+
+def _opened(line: str) -> int:
+    """How many more brackets a line opens than it closes, those in strings left out."""
+    marks = [match[0] for match in _BRACKET.finditer(line)]
+    return sum(mark in "[{" for mark in marks) - sum(mark in "]}" for mark in marks)
+
+
+def _joined(parts: list[str]) -> str:
+    """Lines as one command. A line break stays between them, except within a word."""
+    pieces = [parts[0]]
+    for part in parts[1:]:
+        if _has_backslash(pieces[-1]):
+            start = pieces[-1].rstrip()[:-1]
+            pieces[-1] = start or " "
+            in_word = (start[-1:].isalnum() or start[-1:] in "_:") and part.strip()[:1].isalnum()
+            pieces.append(part.lstrip() if in_word else f"\n{part}")
+        else:
+            pieces.append(f"\n{part}")
+    return "".join(pieces)
 
 
 def _may_hold(line: str) -> bool:

@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
+from drapery.banner.formats.leftovers import holds_expression
 from drapery.banner.formats.tree import DataTree, bare, get
 from drapery.banner.names import shown
 from drapery.errors import DesignError
@@ -107,6 +108,9 @@ def read_details(
         for key in [key for key, value in entries.items() if _is_deep(value)]:
             del entries[key]
             left_out.append(f"{shown(key)}, which is nested over {MAX_DEPTH} deep")
+        for key in [key for key, value in entries.items() if holds_expression(value)]:
+            del entries[key]
+            left_out.append(f"{shown(key)}, which holds an expression")
     name, lore, json_text = _from_components(known)
     if not name and not lore:
         name, lore = _from_tag(old)

@@ -61,8 +61,25 @@ def literal_macro(line: str) -> str:
     return re.sub(r"\$\((\w{1,80})\)", "$⟨\\1⟩", line.replace("$", " ", 1))
 
 
+class Expression(str):
+    """The source of a value that a program computes, such as `dark ? 'red' : 'blue'`."""
+
+
+def holds_expression(tree: object) -> bool:
+    """Whether a tree is or holds an Expression."""
+    return isinstance(tree, Expression) or any(
+        isinstance(node, Expression) for _, node in _within(tree)
+    )
+
+
 def check_literal(value: object, at: str, what: str) -> None:
-    """Raise DesignError for a value that is a macro's parameter, which has no value here."""
+    """Raise DesignError for a value that is a macro's parameter, which has no value here, or an
+    expression.
+    """
+    if isinstance(value, Expression):
+        raise DesignError(
+            f"{at}: the {what} is the expression {shown(value, 40)}; write a {what} in its place"
+        )
     parameter = PARAMETER.search(value) if isinstance(value, str) else None
     if parameter:
         raise DesignError(
@@ -187,6 +204,8 @@ def _has_layer_keys(node: Mapping[Any, Any]) -> bool:
 
 def _is_design(key: str, value: object) -> bool:
     name = key.rpartition(":")[2]
+    if isinstance(value, Expression) and key[0] in ".[":
+        return True  # what an object is spread from, or a computed key
     if not value or name == "provides_banner_patterns":
         return False
     return bool(_KEY.search(name)) or _holds_layers(value)

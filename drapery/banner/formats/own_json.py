@@ -6,8 +6,8 @@ A shield has `"kind": "shield"` as well. Layers may have `colour` or `Color` for
 import json
 
 from drapery.banner.design import Banner
-from drapery.banner.formats.leftovers import check_keys
-from drapery.banner.formats.tree import DataTree, names, read_layers
+from drapery.banner.formats.leftovers import check_keys, check_literal
+from drapery.banner.formats.tree import DataTree, names, read_layers, under
 from drapery.banner.names import dye_name, shown
 from drapery.errors import DesignError
 
@@ -36,6 +36,7 @@ def from_tree(tree: dict[str, DataTree], at: str = "") -> Banner:
     kind = tree.get("kind", "banner")
     if kind not in ("banner", "shield"):
         raise DesignError(f"kind: {shown(kind)} is neither 'banner' nor 'shield'")
+    check_literal(tree["base"], under(at, "base"), "base dye")
     layers = read_layers(tree.get("layers"), "layers")
     if not layers:
         check_keys(tree, at, ("layers",))

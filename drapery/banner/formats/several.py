@@ -13,6 +13,7 @@ MAX_LINES = 20_000
 """Most designs of one text, one per line."""
 
 _BULLET = re.compile(r"\s*(?:[-*•]|[0-9]{1,4}[.)])\s+")
+_YAML_KEY = re.compile(r"['\"]?[\w -]{1,40}['\"]?:")
 _COMMENTS = ("#", "//", "--")
 
 
@@ -21,9 +22,9 @@ def find_in_lines(
 ) -> list[FoundBanner]:
     """The banners of all lines, or an empty list if the text is not a list of designs.
 
-    Empty lines and comments are skipped, and bullets removed. It is a list if its only line that is
-    left can be read, or if at least two can and no more lines cannot; the errors of these are
-    added to `errors`.
+    Empty lines, comments and keys of YAML without a value are skipped, and bullets removed. It is a
+    list if its only line that is left can be read, or if at least two can and no more lines cannot;
+    the errors of these are added to `errors`.
     """
     lines = [(n, line.strip()) for n, line in enumerate(text.split("\n"), 1) if _is_design(line)]
     one_line = "\n" not in text.strip() and not _BULLET.match(text)
@@ -55,5 +56,7 @@ def _at(number: int, where: str) -> str:
 
 def _is_design(line: str) -> bool:
     line = line.strip()
+    if _YAML_KEY.fullmatch(line):
+        return False
     is_edit = "banner" in line and command_of(line) in EDITS
     return bool(line) and (is_edit or not line.startswith(_COMMENTS))

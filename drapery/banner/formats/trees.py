@@ -9,14 +9,12 @@ from itertools import accumulate
 from drapery.banner.design import Banner
 from drapery.banner.formats import loom_assistant, loot, own_json, wynncraft
 from drapery.banner.formats.found import FoundBanner, children_of, find_banners
+from drapery.banner.formats.javascript_values import parse_object
 from drapery.banner.formats.leftovers import check_read
 from drapery.banner.formats.snbt import MAX_DEPTH, MAX_TEXT, parse_snbt
 from drapery.banner.formats.tree import DataTree, banner_from_block_entity, banner_from_tag, get
 from drapery.banner.names import shown
 from drapery.errors import DesignError
-
-_COMMENT = re.compile(r'("[^"\\\n]*(?:\\.[^"\\\n]*)*(?:"|\\?(?=\n|\Z)))|//[^\n]*')
-"""A comment, or a string as far as its line goes, so that each text is passed over once."""
 
 DATA_ANSWER = " has the following "
 """The words of `/data get` between the name and the tree."""
@@ -31,20 +29,26 @@ def recognises(text: str) -> bool:
 
 def read(text: str) -> list[FoundBanner]:
     """All banners of the tree. Raises DesignError with the place, and if there is none."""
-    return _all(read_text(text))
+    return _some_of(read_text(text))
 
 
 def read_wynncraft(text: str) -> list[FoundBanner]:
     """As `read`, but a design in JSON is read as Wynncraft's, with Bukkit's names."""
     tree = read_text(text)
-    return [FoundBanner(wynncraft.from_tree(tree))] if wynncraft.may_be(tree) else _all(tree)
+    return [FoundBanner(wynncraft.from_tree(tree))] if wynncraft.may_be(tree) else _some_of(tree)
 
 
-def _all(tree: DataTree) -> list[FoundBanner]:
+def banners_in(tree: DataTree) -> list[FoundBanner]:
+    """All banners of a tree, which may be none. Raises DesignError with the place."""
     # What no form recognises may still hold parts of a data pack, such as an advancement's icon.
     found = list(_found(tree)) or list(loot.find(tree))
-    if found:
-        check_read(tree, (len(one.banner.layers) for one in found))
+    check_read(tree, (len(one.banner.layers) for one in found))
+    return found
+
+
+def _some_of(tree: DataTree) -> list[FoundBanner]:
+    """As `banners_in`, but a tree without a banner raises DesignError."""
+    if found := banners_in(tree):
         return found
     if isinstance(tree, dict) and isinstance(tree.get("elements"), list):
         raise DesignError(_pool(tree))
@@ -75,16 +79,20 @@ def _locations(tree: DataTree) -> Iterator[str]:
 
 
 def read_text(text: str) -> DataTree:
-    """The tree of a text, parsed as JSON if possible, otherwise as SNBT."""
+    """The tree of a text, parsed as JSON, SNBT or an object of JavaScript, whichever fits first."""
     start = max(text.find("{"), 0) if DATA_ANSWER in text[:200] else 0
     if start == 0 and len(text) <= MAX_TEXT and _depth(text) <= MAX_DEPTH:
         with suppress(ValueError, RecursionError):
             return json.loads(text)
-        if "//" in text:  # as in Bedrock's files
-            with suppress(ValueError, RecursionError):
-                return json.loads(_COMMENT.sub(lambda match: match[1] or "", text))
     # Spaces replace the words before the tree, so that columns are those of the text.
-    return parse_snbt(" " * start + text[start:])
+    text = " " * start + text[start:]
+    try:
+        return parse_snbt(text)
+    except DesignError:
+        if any(word in text for word in ("banner", "shield", "layers")):
+            with suppress(DesignError):
+                return parse_object(text)
+        raise
 
 
 def _depth(text: str) -> int:

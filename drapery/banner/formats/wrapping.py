@@ -4,7 +4,16 @@ import re
 
 _FENCE = re.compile(r"```[\w-]*\n?(.*?)\n?```", re.DOTALL)
 _LINK = re.compile(r"!?\[[^\]\n]*\]\(<?(https?://[^\s<>]+?)>?(?: \"[^\"]*\")?\)")
-_PAIRS = (("`", "`"), ("“", "”"), ("„", "“"), ("„", "”"), ("«", "»"), ("‘", "’"), ('"', '"'))
+_PAIRS = (
+    ("`", "`"),
+    ("“", "”"),
+    ("„", "“"),
+    ("„", "”"),
+    ("«", "»"),
+    ("‘", "’"),
+    ('"', '"'),
+    ("'", "'"),
+)
 _INVISIBLE = str.maketrans({"\u00a0": " ", "\u202f": " ", "\u3000": " "})
 _DROPPED = str.maketrans(dict.fromkeys("\u200b\u200e\u200f\u2060\ufeff", ""))
 _DOUBLE = str.maketrans(dict.fromkeys("“”„‟″«»", '"'))
