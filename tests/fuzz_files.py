@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import fuzzing
 import numpy as np
@@ -32,6 +33,8 @@ from drapery.styles import Style
 PNG = b"\x89PNG\r\n\x1a\n"
 MAX_FACES = 50_000
 """The most triangles of a 3-D file, as in garments."""
+MAX_PIXELS = 1 << 22
+"""The most pixels of a picture, fewer than are read elsewhere: the bound on memory is on copies."""
 MAX_TEXT = 4000
 """The longest text of a garment or style [characters]; the longest sample has a third."""
 GARMENT = """\
@@ -172,12 +175,13 @@ def _profile(text: str) -> Iterable[Any]:
 
 
 def _skin(data: bytes) -> Iterable[Any]:
-    with opened_picture(data, "skin", ("PNG",)) as image:
+    with opened_picture(data, "skin", ("PNG",), max_pixels=MAX_PIXELS) as image:
         return [read_skin(pixels_of(image))]
 
 
 def _pixels(data: bytes) -> Iterable[Any]:
-    return [decode_picture(data, "picture")]
+    with mock.patch("drapery.comparison.picture.MAX_PIXELS", MAX_PIXELS):
+        return [decode_picture(data, "picture")]
 
 
 def _mesh(path: Path) -> Iterable[Any]:

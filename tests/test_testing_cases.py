@@ -45,6 +45,13 @@ def test_a_bad_option_names_its_case(drapery: Run, tmp_path: Path) -> None:
     assert code == 2 and "case 'one': wind 999" in err.splitlines()[-1]
 
 
+def test_a_design_that_is_no_text_is_named_with_its_case(drapery: Run, tmp_path: Path) -> None:
+    file = file_of(tmp_path, '[[case]]\nname = "one"\ndesign = []\n')
+    code, _, err = drapery("golden", "check", file)
+    assert (code, err.count("\n")) == (2, 1)
+    assert "case 'one': design [] is not a text; put it in quotes" in err
+
+
 def test_an_unknown_option_is_reported_with_the_nearest_name(drapery: Run, tmp_path: Path) -> None:
     file = file_of(tmp_path, ONE_CASE + "wnid = 9\nhashed = true\n")
     code, _, err = drapery("golden", "check", file)

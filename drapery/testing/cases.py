@@ -107,6 +107,11 @@ def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
     settings = check_options({"size": DEFAULTS.size} | options, path.parent)
     if isinstance(settings, list):
         faults += settings
+    faults += [
+        f"{name} {shown(own[name])} is not a text; put it in quotes"
+        for name in ("name", "design")
+        if not isinstance(own.get(name), str | None)
+    ]
     for name in (name for name in LOOP_OPTIONS if name in own):
         try:
             own[name] = LOOP_OPTIONS[name].parse(own[name])
