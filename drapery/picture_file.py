@@ -1,5 +1,6 @@
 """Pictures from outside: the one place where Pillow opens them, checked before it decodes them."""
 
+import logging
 import re
 import struct
 import warnings
@@ -24,6 +25,10 @@ Each takes time for all pixels."""
 
 FORMATS = ("PNG", "JPEG", "WEBP", "GIF")
 """The formats that are read at all, by Pillow's names."""
+
+# Pillow logs some faults of files, which are refusals here; where nobody handles them, Python would
+# write them to standard error.
+logging.getLogger("PIL").addHandler(logging.NullHandler())
 
 _MARKER = re.compile(rb"\xff+([^\x00\xff])")
 _ALONE = {0x01, *range(0xD0, 0xD9)}

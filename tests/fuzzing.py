@@ -5,6 +5,7 @@ The suite runs a short slice of it, `python -m benchmarks.fuzz` the long run.
 
 import gzip
 import io
+import logging
 import math
 import random
 import re
@@ -12,8 +13,8 @@ import struct
 import time
 import warnings
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -98,9 +99,10 @@ def judge(
 ) -> None:
     """Read one input and note how it ended."""
     before, start = _memory("VmRSS"), time.process_time()
+    lines: list[str] = []
     _forget_peak()
     try:
-        with untraced(), warnings.catch_warnings():
+        with untraced(), warnings.catch_warnings(), _logged(lines):
             warnings.simplefilter("ignore", UserWarning)  # a reader may say what it leaves out
             number = len(list(read(given)))
         outcome = "no banner" if number == 0 else "a banner" if number == 1 else "banners"
@@ -112,6 +114,8 @@ def judge(
         outcome = f"FAILED {type(error).__name__}"
         report.failures.append((given, repr(error)))
     seconds = time.process_time() - start
+    if lines:
+        report.failures.append((given, f"a library wrote {lines[0]!r} beside the error"))
     if seconds > slowest:
         report.failures.append((given, f"took {seconds:.2f} s"))
     grown = _memory("VmHWM") - before
@@ -120,6 +124,18 @@ def judge(
     report.slowest = max(report.slowest, seconds)
     report.heaviest = max(report.heaviest, grown)
     report.outcomes[outcome] += 1
+
+
+@contextmanager
+def _logged(lines: list[str]) -> Iterator[None]:
+    """Collect what libraries log without a handler, which Python writes to standard error."""
+    handler, before = logging.Handler(logging.WARNING), logging.lastResort
+    handler.emit = lambda record: lines.append(record.getMessage())  # type: ignore[method-assign]
+    logging.lastResort = handler  # type: ignore[assignment]
+    try:
+        yield
+    finally:
+        logging.lastResort = before
 
 
 def _memory(name: str) -> float:

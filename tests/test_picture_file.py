@@ -1,7 +1,9 @@
 """Pictures from outside are judged by their headers before anything is decoded."""
 
 import io
+import logging
 import struct
+from unittest import mock
 
 import numpy as np
 import pytest
@@ -33,6 +35,23 @@ def test_a_jpeg_of_many_scans_is_refused_before_it_is_decoded() -> None:
         decode_picture(of_scans(MAX_SCANS + 1))
     with limited_cost(2), pytest.raises(OptionError, match="over 100 scans"):
         decode_picture(of_scans(3000, 1024))
+
+
+def test_a_broken_picture_writes_nothing_beside_its_error(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    """Pillow logs some faults, which Python writes to standard error where nobody handles them."""
+    data = encoded("TIFF")
+    tag = struct.pack("<HHI", 277, 3, 1)  # samples of a pixel
+    assert data.count(tag) == 1
+    broken = data.replace(tag + b"\3\0", tag + b"\0\1")
+    with (
+        mock.patch.object(logging.getLogger(), "handlers", []),
+        pytest.raises(OptionError, match=r"wide\.tif is (a broken|not a) picture"),
+        opened_picture(broken, "wide.tif", ("TIFF",)),
+    ):
+        pass
+    assert capfd.readouterr() == ("", "")
 
 
 def test_the_scans_of_a_larger_picture_cost_more(monkeypatch: pytest.MonkeyPatch) -> None:
