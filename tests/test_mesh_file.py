@@ -176,6 +176,19 @@ def test_a_hostile_file_is_refused_soon(name: str, tmp_path: Path) -> None:
     assert "\n" not in str(caught.value) and len(str(caught.value)) < 500
 
 
+def test_triangles_at_one_place_are_bounded(tmp_path: Path) -> None:
+    """Cloth near 49,000 triangles at one place was compared with each of them, for minutes."""
+    written(tmp_path, "many.obj", OBJ + "f 1 2 3\n" * 49_000)
+    said = "many.obj' has 49000 triangles, of which 49000 lie at one place on average; at most 1000"
+    with limited_cost(20), pytest.raises(OptionError, match=said):
+        read_stiff_mesh(GarmentMesh(file=Path("many.obj")), tmp_path, 1 / 16)
+    written(tmp_path, "few.obj", OBJ + "f 1 2 3\n" * 1000)
+    assert read_stiff_mesh(GarmentMesh(file=Path("few.obj")), tmp_path, 1 / 16).models
+    ball = trimesh.creation.icosphere(5)  # 20,480 triangles
+    written(tmp_path, "ball.stl", ball.export(file_type="stl"))
+    assert read_stiff_mesh(GarmentMesh(file=Path("ball.stl")), tmp_path, 1 / 16).models
+
+
 def test_the_library_sees_only_what_is_within_the_bounds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
