@@ -199,7 +199,7 @@ def test_limits_out_of_range_are_refused() -> None:
     ):
         with pytest.raises(OptionError):
             Tolerance(**wrong)
-    assert Tolerance(5, ratio=0.1).limits() == {"channel": 5, "ratio": 0.1}
+    assert Tolerance(5, ratio=0.1).limits() == {"tolerance": 5, "ratio": 0.1}
 
 
 def test_a_map_tells_what_is_within_and_what_is_beyond() -> None:

@@ -161,15 +161,15 @@ def test_one_verdict_stands_in_text_json_and_html(tmp_path: Path, drapery: Run) 
     files = (tmp_path / "a.png", tmp_path / "b.png", "-o", tmp_path / "c.json", "-o")
     for tolerance, verdict, words in (
         (0, "different", "4 pixels differ, max 50"),
-        (5, "different", "1 pixel differs, 3 pixels differ within the tolerance (channel 5)"),
-        (50, "within", "4 pixels differ within the tolerance (channel 50)"),
+        (5, "different", "1 pixel differs, 3 pixels differ within the limits (tolerance 5)"),
+        (50, "within", "4 pixels differ within the limits (tolerance 50)"),
     ):
         code, out, _ = drapery("compare", *files, tmp_path / "c.html", "--tolerance", tolerance)
         facts = json.loads((tmp_path / "c.json").read_text(encoding="utf-8"))["pairs"][0]
         page = (tmp_path / "c.html").read_text(encoding="utf-8")
         assert words in out and words in page, out
         assert (code, facts["verdict"]) == (int(verdict == "different"), verdict)
-        assert facts["limits"] == ({"channel": tolerance} if tolerance else {})
+        assert facts["limits"] == ({"tolerance": tolerance} if tolerance else {})
         assert f'class="{"different" if code else "same"}"' in page
 
 
@@ -190,7 +190,7 @@ def test_ignored_parts_and_smoothed_edges_by_the_command(tmp_path: Path, drapery
     for wrong in ("3,2,1", "a,b,c,d", "3,2,0,1"):
         code, _, err = drapery(*both, "--ignore", wrong)
         assert code == 2 and err.count("\n") == 1
-    assert drapery(*both, "--limit", "speed=1")[0] == 2
+    assert drapery(*both, "--flip", "2")[0] == 2
 
 
 def test_equal_items_belong_together() -> None:
@@ -243,4 +243,4 @@ def test_figures_are_told_the_same_everywhere() -> None:
     a, b = (Picture((np.full((4, 4, 4), level, np.uint8),)) for level in (10, 13))
     tolerance = Tolerance(2)
     words = difference_words(measure_pictures(a, b, tolerance), tolerance)
-    assert words == "16 pixels differ (channel 2), max 3, in columns 0 to 3 of rows 0 to 3"
+    assert words == "16 pixels differ (tolerance 2), max 3, in columns 0 to 3 of rows 0 to 3"

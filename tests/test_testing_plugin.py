@@ -127,5 +127,5 @@ def test_a_tolerance_out_of_range_is_refused_without_a_traceback(
 ) -> None:
     pytester.makepyfile(HEAD + "\ndef test_one(golden):\n    golden(grey(0), tolerance=300)\n")
     result = pytester.runpytest_inprocess()
-    result.stdout.fnmatch_lines(["*tolerance 300 of 0 pixels is out of range*"])
+    result.stdout.fnmatch_lines(["*tolerance 300 is out of range; use 0 to 255*"])
     result.stdout.no_fnmatch_line("*golden.py*")

@@ -1,7 +1,6 @@
 """`drapery compare`: where designs, packs, layer modes, backends or pictures differ."""
 
 import json
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,6 +8,7 @@ import typer
 
 from drapery.commands import options as o
 from drapery.commands.notices import compile_notice
+from drapery.comparison import LIMIT_OPTIONS
 
 if TYPE_CHECKING:
     from drapery.comparison import Comparison, Variant
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 ENDINGS = (".png", ".gif", ".html", ".json")
 
 
-@o.pictured("design", "texture")
+@o.pictured("design", "texture", more=LIMIT_OPTIONS)
 def run(
     subjects: Annotated[
         list[str],
@@ -35,28 +35,6 @@ def run(
             metavar="FILE",
             help="Side by side as .png, flickering as .gif, a report as .html, figures as .json.",
         ),
-    ] = None,
-    tolerance: Annotated[int, typer.Option(help="Channel errors up to this do not count.")] = 0,
-    pixels: Annotated[int, typer.Option(help="Number of pixels that may differ more.")] = 0,
-    ratio: Annotated[float, typer.Option(help="Share of the pixels that may differ more.")] = 0.0,
-    colour: Annotated[
-        float | None,
-        typer.Option(help="Only perceived differences above this count, 0 to 1; 0.1 is usual."),
-    ] = None,
-    antialiasing: Annotated[
-        bool, typer.Option(help="Whether pixels of smoothed edges count.")
-    ] = True,
-    ignore: Annotated[
-        list[str] | None,
-        typer.Option(metavar="X,Y,W,H", help="A box of pixels that does not count."),
-    ] = None,
-    mask: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="A picture whose bright pixels do not count."),
-    ] = None,
-    limit: Annotated[
-        list[str] | None,
-        typer.Option(metavar="NAME=VALUE", help="flip=0.05, ssim=0.98 or ciede2000=1 as a limit."),
     ] = None,
     perceptual: Annotated[
         bool, typer.Option("--perceptual", help="SSIM, FLIP and CIEDE2000 (extra: compare).")
@@ -76,31 +54,19 @@ def run(
 
     Each --style is a picture of its own.
     """
-    from drapery.comparison import (
-        Tolerance,
-        compare_variants,
-        draw_variants,
-        eight_bits,
-        painted,
-        read_picture,
-    )
+    from drapery.comparison import compare_variants, draw_variants, read_tolerance
     from drapery.settings import Settings
 
     for target in out or []:
         _check_target(target)
-    limits = Tolerance(
-        *(tolerance, pixels, ratio, colour, antialiasing),
-        ignore=tuple(_box(text) for text in ignore or ()),
-        **_limits(limit or ()),
-    )
-    hidden = None if mask is None else painted(eight_bits(read_picture(mask).frames[0]))
+    limits = read_tolerance({name: words.pop(name) for name in LIMIT_OPTIONS})
     modes, backends, styles = layers.split(","), backend.split(","), words.pop("style") or ()
     first = {"layers": modes[0], "backend": backends[0]}
     settings = Settings(**o.options_of(words | first))
     reading = {name: words[name] for name in ("form", "number")}
     with compile_notice():
         chosen = draw_variants(subjects, settings, modes, backends, styles, **reading)
-        pairs = compare_variants(chosen, limits, mask=hidden, perceptual=perceptual)
+        pairs = compare_variants(chosen, limits, perceptual=perceptual)
         costs = {v.label: _cost(v) for v in chosen} if cost else {}
     for pair in pairs:
         print(pair.line())
@@ -109,35 +75,6 @@ def run(
     for target in out or []:
         _write(target, pairs, costs)
     raise typer.Exit(0 if all(pair.difference.agrees for pair in pairs) else 1)
-
-
-def _box(text: str) -> tuple[int, int, int, int]:
-    """Raises OptionError."""
-    from drapery.errors import OptionError
-
-    parts = text.split(",")
-    if len(parts) != 4 or not all(part.strip().isdecimal() and len(part) < 8 for part in parts):
-        raise OptionError(f"ignore {text[:40]!r} is not a box; write it like 10,20,64,32")
-    left, top, width, height = map(int, parts)
-    return left, top, width, height
-
-
-def _limits(texts: Sequence[str]) -> dict[str, Any]:
-    """Raises OptionError."""
-    from drapery.errors import OptionError
-
-    found = {}
-    for text in texts:
-        name, _, value = text.partition("=")
-        try:
-            found[name] = float(value)
-        except ValueError:
-            name = ""
-        if name not in ("flip", "ssim", "ciede2000"):
-            raise OptionError(
-                f"limit {text[:40]!r} is not known; write flip=0.05, ssim=0.98 or ciede2000=1"
-            )
-    return found
 
 
 def _cost(variant: "Variant") -> dict[str, float]:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from drapery.comparison.difference import Difference
     from drapery.comparison.files import MAX_FILE
     from drapery.comparison.ignored import ignored_pixels, painted
+    from drapery.comparison.limit_values import read_tolerance
+    from drapery.comparison.limits import LIMIT_OPTIONS
     from drapery.comparison.loops import measure_pictures, padded
     from drapery.comparison.metrics import (
         difference_map,
@@ -55,6 +57,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "EXACT",
+    "LIMIT_OPTIONS",
     "MAX_FILE",
     "BuildUpStep",
     "Comparison",
@@ -92,6 +95,7 @@ __all__ = [
     "pair_facts",
     "pair_sheet",
     "read_picture",
+    "read_tolerance",
     "seen",
     "short_labels",
     "side_by_side",
@@ -106,6 +110,8 @@ __getattr__, __dir__ = lazy_names(
         "comparison.difference": ("Difference",),
         "comparison.files": ("MAX_FILE",),
         "comparison.ignored": ("ignored_pixels", "painted"),
+        "comparison.limit_values": ("read_tolerance",),
+        "comparison.limits": ("LIMIT_OPTIONS",),
         "comparison.loops": ("measure_pictures", "padded"),
         "comparison.metrics": (
             "difference_map",

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from drapery.comparison.tolerance import Box
+from drapery.comparison.limits import Box
 
 
 @dataclass(frozen=True)

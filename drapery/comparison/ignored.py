@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.comparison.tolerance import Box
+from drapery.comparison.limits import Box
 from drapery.errors import OptionError
 from drapery.render import Pixels
 

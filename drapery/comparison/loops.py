@@ -21,33 +21,37 @@ def measure_pictures(
     actual: Picture,
     tolerance: Tolerance = EXACT,
     *,
-    mask: NDArray[np.bool_] | None = None,
     perceptual: bool = False,
 ) -> Difference:
     """Measure a picture against the expected one; see `measure`.
 
-    mask: pixels that do not count, beside the boxes of the tolerance, shape [H, W]. Pictures of
-    other sizes or lengths are different; what both have is compared. Raises OptionError for a mask
-    of another size.
+    Pictures of other sizes or lengths are different; what both have is compared. Raises
+    OptionError for a mask of another size than both, or a box outside the larger picture.
     """
     unlike = tuple(_unlike(expected, actual))
     found = [
         measure(old, new, tolerance, ignored=ignored, perceptual=perceptual)
-        for old, new, ignored in _pairs(expected, actual, tolerance, mask)
+        for old, new, ignored in _pairs(expected, actual, tolerance)
     ]
     return replace(_joined(found), unlike=unlike)
 
 
 def _pairs(
-    expected: Picture, actual: Picture, tolerance: Tolerance, mask: NDArray[np.bool_] | None
+    expected: Picture, actual: Picture, tolerance: Tolerance
 ) -> Iterator[tuple[Channels, Channels, NDArray[np.bool_] | None]]:
-    ignored, known = None, None
+    # All frames of a picture have one size.
+    ignored = left_out(expected.frames[0], actual.frames[0], tolerance)
     for old, new in zip(expected.frames, actual.frames, strict=False):
-        first, second = padded(old, new)
-        if known != first.shape:
-            known = first.shape
-            ignored = ignored_pixels(first.shape[:2], tolerance.ignore, mask)
-        yield first, second, ignored
+        yield *padded(old, new), ignored
+
+
+def left_out(a: Channels, b: Channels, tolerance: Tolerance) -> NDArray[np.bool_] | None:
+    """Which pixels of two padded pictures do not count; None if all do. Raises OptionError."""
+    height, width = (max(sizes) for sizes in zip(a.shape[:2], b.shape[:2], strict=True))
+    mask = tolerance.mask
+    if mask is not None and mask.shape in (a.shape[:2], b.shape[:2]):
+        mask = np.pad(mask, ((0, height - mask.shape[0]), (0, width - mask.shape[1])))
+    return ignored_pixels((height, width), tolerance.ignore, mask)
 
 
 def padded(a: Channels, b: Channels) -> tuple[Channels, Channels]:

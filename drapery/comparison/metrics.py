@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.comparison.difference import Difference
+from drapery.comparison.limits import Box
 from drapery.comparison.perceptual import perceptual_measures
-from drapery.comparison.tolerance import EXACT, Box, Tolerance
+from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.errors import OptionError
 from drapery.picture_pixels import Channels
 from drapery.render import Pixels

@@ -4,9 +4,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Unpack
 
-import numpy as np
-from numpy.typing import NDArray
-
 from drapery.comparison.alignment import align
 from drapery.comparison.difference import Difference
 from drapery.comparison.loops import measure_pictures
@@ -48,7 +45,7 @@ class BuildUpStep:
 class Comparison:
     """Two pictures and their difference.
 
-    tolerance, mask: what counts as a difference.
+    tolerance: what counts as a difference.
     build_up: one step for the base, and one for each layer of both designs, or of one if the other
         has no such layer; empty for finished pictures.
     """
@@ -58,7 +55,6 @@ class Comparison:
     difference: Difference
     build_up: tuple[BuildUpStep, ...]
     tolerance: Tolerance = EXACT
-    mask: NDArray[np.bool_] | None = None
 
     @property
     def culprit(self) -> str | None:
@@ -109,36 +105,29 @@ def compare_variants(
     variants: Sequence[Variant],
     tolerance: Tolerance = EXACT,
     *,
-    mask: NDArray[np.bool_] | None = None,
     perceptual: bool = False,
 ) -> list[Comparison]:
-    """Compare every variant with the first. Raises OptionError for a single one.
-
-    mask: pixels that do not count, shape [H, W].
-    """
+    """Compare every variant with the first. Raises OptionError for a single one."""
     if len(variants) < 2:
         raise OptionError("one picture cannot be compared; name at least two")
     first, *others = variants
-    return [_pair(first, other, tolerance, mask, perceptual) for other in others]
+    return [_pair(first, other, tolerance, perceptual) for other in others]
 
 
 def _pair(
     first: Variant,
     other: Variant,
     tolerance: Tolerance,
-    mask: NDArray[np.bool_] | None,
     perceptual: bool,
 ) -> Comparison:
     pictures = first.picture, other.picture
-    difference = measure_pictures(*pictures, tolerance, mask=mask, perceptual=perceptual)
+    difference = measure_pictures(*pictures, tolerance, perceptual=perceptual)
     differ = first.banner is not None and other.banner is not None and not difference.same
-    steps = tuple(_build_up(first, other, tolerance, mask)) if differ else ()
-    return Comparison(first, other, difference, steps, tolerance, mask)
+    steps = tuple(_build_up(first, other, tolerance)) if differ else ()
+    return Comparison(first, other, difference, steps, tolerance)
 
 
-def _build_up(
-    first: Variant, other: Variant, tolerance: Tolerance, mask: NDArray[np.bool_] | None
-) -> Iterator[BuildUpStep]:
+def _build_up(first: Variant, other: Variant, tolerance: Tolerance) -> Iterator[BuildUpStep]:
     """The steps of both designs side by side; equal layers belong together."""
     layers = [variant.banner.layers for variant in (first, other) if variant.banner is not None]
     counts = [0, 0]
@@ -153,7 +142,7 @@ def _build_up(
             for variant, place in zip((first, other), places, strict=True)
         ]
         old, new = map(as_picture, pictures)
-        difference = measure_pictures(old, new, tolerance, mask=mask)
+        difference = measure_pictures(old, new, tolerance)
         yield BuildUpStep((names[0], names[1]), *pictures, difference)
 
 
@@ -165,7 +154,7 @@ def pair_sheet(pair: Comparison) -> Frame:
         for picture in (pair.first.picture, pair.other.picture)
     ]
     labels = short_labels(pair.first.label, pair.other.label)
-    return side_by_side(frames[0], frames[1], labels, tolerance=pair.tolerance, mask=pair.mask)
+    return side_by_side(frames[0], frames[1], labels, tolerance=pair.tolerance)
 
 
 def short_labels(a: str, b: str, length: int = 40) -> tuple[str, str]:

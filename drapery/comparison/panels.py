@@ -1,10 +1,8 @@
 """Pictures that show where two pictures differ, alone or beside both of them."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-from drapery.comparison.ignored import ignored_pixels
-from drapery.comparison.loops import padded
+from drapery.comparison.loops import left_out, padded
 from drapery.comparison.metrics import BEYOND, SAME, difference_map, eight_bits, errors
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.picture_pixels import Channels
@@ -20,15 +18,14 @@ def difference_panel(
     gain: int = 8,
     *,
     tolerance: Tolerance = EXACT,
-    mask: NDArray[np.bool_] | None = None,
 ) -> Pixels:
     """The expected picture in faint grey with errors in red, multiplied by `gain`.
 
-    What is within the tolerance is amber. mask: pixels that do not count, shape [H, W]. Pictures
-    of two sizes are shown one over the other, from their upper left corners.
+    What is within the tolerance is amber. Pictures of two sizes are shown one over the other, from
+    their upper left corners.
     """
     old, new = padded(expected, actual)
-    ignored = ignored_pixels(old.shape[:2], tolerance.ignore, mask)
+    ignored = left_out(expected, actual, tolerance)
     kinds = difference_map(old, new, tolerance, ignored=ignored)
     old, new = eight_bits(old), eight_bits(new)
     worst = errors(old, new).astype(np.int32)
@@ -49,10 +46,9 @@ def side_by_side(
     labels: tuple[str, str] = ("expected", "actual"),
     *,
     tolerance: Tolerance = EXACT,
-    mask: NDArray[np.bool_] | None = None,
 ) -> Frame:
     """Both pictures and their difference; small pictures are enlarged. See `difference_panel`."""
-    panel = difference_panel(expected, actual, tolerance=tolerance, mask=mask)
+    panel = difference_panel(expected, actual, tolerance=tolerance)
     return joined_panels(expected, actual, panel, labels)
 
 

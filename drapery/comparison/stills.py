@@ -11,7 +11,8 @@ from warnings import catch_warnings
 
 from drapery.comparison.difference import Difference, box_around
 from drapery.comparison.files import opened, picture_bytes
-from drapery.comparison.tolerance import EXACT, Box, Tolerance
+from drapery.comparison.limits import Box
+from drapery.comparison.tolerance import EXACT, Tolerance
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -34,7 +35,7 @@ def measure_files(expected: Path, actual: Path, tolerance: Tolerance = EXACT) ->
     for a file that cannot be read or is broken.
     """
     data = picture_bytes(expected), picture_bytes(actual)
-    if not tolerance.limits().keys() <= {"channel", "pixels", "ratio"}:
+    if not tolerance.limits().keys() <= {"tolerance", "pixels", "ratio"}:
         return None
     if not all(each[:8] == b"\x89PNG\r\n\x1a\n" and each[_KIND] in _KINDS for each in data):
         return None

@@ -1,15 +1,18 @@
 """How far two pictures may differ and still agree."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
 
+from drapery.comparison.limits import LIMIT_OPTIONS, Box, is_box
 from drapery.errors import OptionError
 
-Box = tuple[int, int, int, int]
-"""Left, top, width and height [px]."""
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Tolerance:
     """How far a picture may differ; by default not at all. Raises OptionError out of range.
 
@@ -20,7 +23,7 @@ class Tolerance:
         Kotsarenko and Ramos (2010), "Measuring perceived color difference using YIQ NTSC
         transmission color space in mobile applications"; no two colours differ by more than 1.
     antialiasing: whether pixels of smoothed edges count; see `drapery.comparison.antialiasing`.
-    ignore: boxes of pixels that do not count.
+    ignore: boxes of pixels that do not count. mask: further such pixels, shape [H, W].
     flip, ciede2000: the largest mean FLIP error and mean colour difference. ssim: the least
         structural similarity. None for any.
     """
@@ -31,24 +34,19 @@ class Tolerance:
     colour: float | None = None
     antialiasing: bool = True
     ignore: tuple[Box, ...] = ()
+    mask: "NDArray[np.bool_] | None" = None
     flip: float | None = None
     ssim: float | None = None
     ciede2000: float | None = None
 
     def __post_init__(self) -> None:
-        if not (0 <= self.channel <= 255 and self.pixels >= 0):
-            raise OptionError(
-                f"tolerance {self.channel} of {self.pixels} pixels is out of range;"
-                " use 0 to 255, and 0 or more pixels"
-            )
-        for name, most in {"ratio": 1, "colour": 1, "flip": 1, "ssim": 1, "ciede2000": 200}.items():
-            value = getattr(self, name)
-            if value is not None and not (math.isfinite(value) and 0 <= value <= most):
-                raise OptionError(f"{name} {value} is out of range; use 0 to {most}")
+        for name, value in self._named().items():
+            if name not in ("ignore", "mask"):
+                LIMIT_OPTIONS[name].check(value)
         for box in self.ignore:
-            if len(box) != 4 or min(box) < 0 or 0 in box[2:]:
+            if not is_box(box) or min(box) < 0 or 0 in box[2:]:
                 raise OptionError(
-                    f"ignored box {box} is not left, top, width, height in pixels; use 0 or more,"
+                    f"ignore {box} is not a box: left, top, width, height in pixels; use 0 or more,"
                     " and at least 1 for the size"
                 )
 
@@ -62,9 +60,19 @@ class Tolerance:
         return max(self.pixels, math.floor(self.ratio * pixels + 1e-9))
 
     def limits(self) -> dict[str, object]:
-        """The limits that differ from those of an exact comparison, by their names."""
-        exact = Tolerance()
-        return {name: value for name, value in vars(self).items() if value != getattr(exact, name)}
+        """The limits that differ from those of an exact comparison, by the names of options.
+
+        A mask is the number of its pixels.
+        """
+        given = self._named()
+        if self.mask is not None:
+            given["mask"] = int(self.mask.sum())
+        return {name: v for name, v in given.items() if v != LIMIT_OPTIONS[name].default}
+
+    def _named(self) -> dict[str, Any]:
+        """The limits by the names of options."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {"tolerance": values.pop("channel")} | values
 
 
 EXACT = Tolerance()

@@ -51,7 +51,7 @@ def _pixels(difference: Difference, tolerance: Tolerance) -> list[str]:
     if difference.beyond or not (within or difference.smoothed):
         parts.append(f"{_counted(difference.beyond)} {_verb(difference.beyond)}")
     if within:
-        parts.append(f"{_counted(within)} {_verb(within)} within the tolerance")
+        parts.append(f"{_counted(within)} {_verb(within)} within the limits")
     if difference.smoothed:
         parts.append(f"{_counted(difference.smoothed)} of smoothed edges")
     limits = tolerance.limits()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from drapery import Banner, animate, draw
 from drapery.banner import read_design
-from drapery.comparison import Picture, Tolerance, as_picture
+from drapery.comparison import Picture, as_picture
 from drapery.errors import DraperyError, OptionError
 from drapery.packs import open_packs
 from drapery.settings import LOOP_OPTIONS
@@ -97,7 +97,7 @@ def _checked(
         test=TEST,
         label=case.name,
         path=_golden_path(cases, case, folder),
-        tolerance=Tolerance(case.tolerance, case.pixels),
+        tolerance=case.tolerance,
         update=update,
         variant=None,
         report=report,

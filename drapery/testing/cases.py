@@ -12,9 +12,9 @@
     view = "hero"
 
 Paths are relative to the file. A case's keys are the options of `drapery render`, beside `name`,
-`design`, `tolerance`, `pixels` and `hashed`; `defaults` gives them to every case. A cape or elytra
-has a `texture` in place of a design. With `seconds` or `fps` the picture is a loop, as of
-`drapery animate`.
+`design`, `hashed` and the limits of `drapery compare`; `defaults` gives them to every case. A cape
+or elytra has a `texture` in place of a design. With `seconds` or `fps` the picture is a loop, as
+of `drapery animate`.
 """
 
 from pathlib import Path
@@ -22,6 +22,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError
 
+from drapery.comparison import EXACT, LIMIT_OPTIONS, Tolerance, read_tolerance
 from drapery.errors import OptionError
 from drapery.option import shown
 from drapery.options import NAMES, check_options, one_line, unknown_names
@@ -33,13 +34,14 @@ from drapery.yaml_text import load_yaml
 MAX_FILE = 4 << 20
 MAX_CASES = 100_000
 DEFAULTS = Settings(size=(256, 256))
-OWN = ("name", "design", "tolerance", "pixels", "hashed", *LOOP_OPTIONS)
+OWN = ("name", "design", "hashed", *LIMIT_OPTIONS, *LOOP_OPTIONS)
 """Keys of a case beside the options of its picture."""
 
 
 class Case(BaseModel):
     """One picture: its design and options, and how much it may differ from its golden.
 
+    tolerance: all limits together; a hashed case has none.
     seconds, fps: length [s] and frames/s of a loop; with None for both, the picture is a still.
     """
 
@@ -47,8 +49,7 @@ class Case(BaseModel):
 
     name: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 ._-]{0,99}$")
     design: str | None = None
-    tolerance: int = Field(default=0, ge=0, le=255)
-    pixels: int = Field(default=0, ge=0)
+    tolerance: InstanceOf[Tolerance] = EXACT
     hashed: bool = False
     seconds: float | None = None
     fps: float | None = None
@@ -72,7 +73,7 @@ def read_cases(path: Path) -> CaseFile:
     cases = raw.get("case")
     if isinstance(defaults, dict) and isinstance(cases, list):
         raw["case"] = [
-            _case(path, number, defaults | words) if isinstance(words, dict) else words
+            _case(path, number, words, defaults) if isinstance(words, dict) else words
             for number, words in enumerate(cases, 1)
         ]
     try:
@@ -98,8 +99,11 @@ def _check_folder(path: Path, goldens: str) -> None:
         )
 
 
-def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a case with its checked settings. Raises OptionError."""
+def _case(
+    path: Path, number: int, given: dict[str, Any], defaults: dict[str, Any]
+) -> dict[str, Any]:
+    """The keys of a case with its checked limits and settings. Raises OptionError."""
+    words = defaults | given
     own = {name: value for name, value in words.items() if name in OWN}
     options = {name: value for name, value in words.items() if name in NAMES}
     known = NAMES.union(OWN)
@@ -112,6 +116,13 @@ def _case(path: Path, number: int, words: dict[str, Any]) -> dict[str, Any]:
         for name in ("name", "design")
         if not isinstance(own.get(name), str | None)
     ]
+    limits = {name: own.pop(name) for name in LIMIT_OPTIONS if name in own}
+    try:
+        own["tolerance"] = read_tolerance(limits, path.parent)
+    except OptionError as error:
+        faults.append(one_line(str(error)))
+    if own.get("hashed") and limits.keys() & given:
+        faults.append(f"{min(limits.keys() & given)} does nothing in a hashed case; leave one out")
     for name in (name for name in LOOP_OPTIONS if name in own):
         try:
             own[name] = LOOP_OPTIONS[name].parse(own[name])

@@ -5,9 +5,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from drapery.comparison import MAX_FILE, Difference, Picture, Tolerance, measure_pictures
 from drapery.errors import OutputError
 from drapery.render import make_folder, replacing
@@ -30,7 +27,6 @@ class GoldenCheck:
     update: whether to write the picture where no approved one agrees.
     variant: the approved picture to write; None for the golden itself, or for the only one.
     report: the folder for the pictures of failures. root: the folder that its paths start from.
-    mask: pixels that do not count, beside those of the tolerance, shape [H, W].
     """
 
     test: str
@@ -41,7 +37,6 @@ class GoldenCheck:
     variant: str | None
     report: Path
     root: Path
-    mask: NDArray[np.bool_] | None = None
 
 
 @dataclass(frozen=True)
@@ -119,7 +114,7 @@ def _compared(check: GoldenCheck, path: Path, picture: Picture) -> _Approved:
         expected, notes = decode(data)
     except GoldenError as error:
         return _Approved(path, line=f"{path}: {error}; restore the file")
-    found = measure_pictures(expected, picture, check.tolerance, mask=check.mask)
+    found = measure_pictures(expected, picture, check.tolerance)
     return _Approved(path, found.agrees, found, expected, notes)
 
 
@@ -153,7 +148,6 @@ def _failed(
             *(check.report, *words),
             root=check.root,
             tolerance=check.tolerance,
-            mask=check.mask,
         )
     except OutputError as error:
         return GoldenResult(f"{line}; {error}")

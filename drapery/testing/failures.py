@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drapery.comparison import (
     EXACT,
@@ -98,13 +97,12 @@ def keep_failure(
     *,
     root: Path | None = None,
     tolerance: Tolerance = EXACT,
-    mask: NDArray[np.bool_] | None = None,
 ) -> Path:
     """Write a failure's pictures and facts; returns the picture to look at first.
 
     expected, actual: what `as_picture` takes; None if nothing is known of the expected one.
     update: what `accept_failures` writes. root: the folder in which `accept_failures` will run; by
-    default the present one. tolerance, mask: what does not count. Raises OutputError.
+    default the present one. tolerance: what does not count. Raises OutputError.
     """
     make_folder(folder)
     stem = failure_id(test, label)
@@ -112,7 +110,7 @@ def keep_failure(
     if expected is not None:
         pictures["expected"] = as_picture(expected)
         pairs = list(_pairs(pictures["expected"], pictures["actual"]))
-        panels = [difference_panel(*pair, tolerance=tolerance, mask=mask) for pair in pairs]
+        panels = [difference_panel(*pair, tolerance=tolerance) for pair in pairs]
         sheets = [joined_panels(*pair, panel) for pair, panel in zip(pairs, panels, strict=True)]
         pictures["panel"] = _in_time(panels, pictures["actual"])
         pictures["difference"] = _in_time([sheet.pixels for sheet in sheets], pictures["actual"])

@@ -8,19 +8,20 @@ process, which lists or deletes the goldens that no test names.
 from collections.abc import Callable, Generator, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import pytest
 
+from drapery.comparison import LIMIT_OPTIONS
 from drapery.errors import DraperyError
 
 if TYPE_CHECKING:
     from drapery import Banner
-    from drapery.comparison import Picture
+    from drapery.comparison import Picture, Tolerance
     from drapery.testing.usage import GoldenUsage
 
 Golden = Callable[..., None]
-"""The type of the fixture `golden`: `golden(picture, name, *, tolerance, pixels, ...)`."""
+"""The type of the fixture `golden`: `golden(picture, name, *, tolerance, ...)`."""
 
 _FAULTS: pytest.StashKey[list[str]] = pytest.StashKey()
 """What the goldens of this try of a test found, until the test fails because of it."""
@@ -62,8 +63,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="folder of failed pictures and their report (default: drapery-report), or the page"
         " itself as a file .html; the pictures are then in a folder beside it",
     )
-    parser.addini("drapery_tolerance", "the default of golden(tolerance=)", default="0")
-    parser.addini("drapery_pixels", "the default of golden(pixels=)", default="0")
+    for name, option in LIMIT_OPTIONS.items():
+        form: Literal["linelist", "string"] = "linelist" if option.several else "string"
+        parser.addini(f"drapery_{name}", f"the default of golden({name}=)", form, default="")
 
 
 def pytest_load_initial_conftests(parser: pytest.Parser, args: list[str]) -> None:
@@ -172,12 +174,13 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
     picture: a Frame, an Animation, a Pillow image, an array of uint8 or uint16, the path of a
         picture, or a scene to be drawn by `backend`.
     name: the golden's name within the test; by default its number. A name is used once in a test.
-    tolerance, pixels: channel errors up to `tolerance` (0..255) do not count, and `pixels` pixels
-        of each frame may have larger errors; both are 0 by default, which is right for the soft
-        backend. `drapery_tolerance` and `drapery_pixels` in pytest's configuration change it.
-    hashed: store only size and SHA-256 instead of the picture.
+    hashed: store only size and SHA-256 instead of the picture; no limit can be given then.
     backend: each backend other than soft has separate goldens.
     banner, packs: the design that was drawn; a failure then names the layer that changed.
+    limits: how much the picture may differ, by the names of the options of `drapery compare`:
+        tolerance, pixels, ratio, colour, antialiasing, ignore, mask, flip, ssim, ciede2000. Their
+        defaults are those of `drapery_tolerance` and so on in pytest's configuration; without any,
+        nothing may differ, which is right for the soft backend.
     """
     labels: list[str] = []
 
@@ -185,12 +188,11 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
         picture: Any,
         name: str | None = None,
         *,
-        tolerance: int | None = None,
-        pixels: int | None = None,
         hashed: bool = False,
         backend: str = "soft",
         banner: "Banner | None" = None,
         packs: Sequence[str | Path] = (),
+        **limits: Any,
     ) -> None:
         __tracebackhide__ = True
         try:
@@ -199,7 +201,7 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
                 request,
                 labels[-1],
                 _drawn(picture, backend),
-                tolerance=(tolerance, pixels),
+                tolerance=_tolerance(request.config, limits, hashed),
                 ending=".sha256" if hashed else ".png",
                 design=None if banner is None else (banner, tuple(packs)),
             )
@@ -248,7 +250,7 @@ def _check(
     label: str,
     picture: Any,
     *,
-    tolerance: tuple[int | None, int | None],
+    tolerance: "Tolerance",
     ending: str,
     design: "tuple[Banner, tuple[str | Path, ...]] | None",
 ) -> str | None:
@@ -272,7 +274,7 @@ def _check(
             test=item.nodeid,
             label=label,
             path=path,
-            tolerance=_tolerance(config, *tolerance),
+            tolerance=tolerance,
             update=bool(config.getoption("--drapery-update")),
             variant=config.getoption("--drapery-variant"),
             report=_report_places(config)[0],
@@ -291,21 +293,28 @@ def _check(
     return f"golden {label!r}: {result.fault}{remedy}"
 
 
-def _tolerance(config: pytest.Config, channel: int | None, pixels: int | None) -> Any:
-    from drapery.comparison import Tolerance
+def _tolerance(config: pytest.Config, limits: dict[str, Any], hashed: bool) -> "Tolerance":
+    """The limits of a golden over those of the project. Raises OptionError."""
+    from drapery.comparison import EXACT, read_tolerance
     from drapery.errors import OptionError
+    from drapery.options import unknown_names
 
-    given = {"drapery_tolerance": channel, "drapery_pixels": pixels}
-    for name, value in given.items():
-        if value is None:
-            try:
-                given[name] = int(config.getini(name))
-            except ValueError:
-                raise OptionError(
-                    f"{name} = {config.getini(name)!r} in pytest's configuration is not a whole"
-                    " number"
-                ) from None
-    return Tolerance(*given.values())  # type: ignore[arg-type]
+    for fault in unknown_names(limits, frozenset(LIMIT_OPTIONS)):
+        raise OptionError(fault)
+    given = {name: value for name, value in limits.items() if value is not None}
+    if hashed:
+        if given:
+            raise OptionError(f"{min(given)} does nothing for a hashed golden; leave one out")
+        return EXACT
+    project = {name: config.getini(f"drapery_{name}") for name in LIMIT_OPTIONS}
+    project = {name: text for name, text in project.items() if text and name not in given}
+    if "mask" in project:
+        project["mask"] = config.rootpath / project["mask"]
+    try:
+        known = read_tolerance(project)
+    except OptionError as error:
+        raise OptionError(f"drapery_... in pytest's configuration: {error}") from None
+    return read_tolerance(project | given) if given else known
 
 
 def _notes(design: "tuple[Banner, tuple[str | Path, ...]] | None") -> Any:
