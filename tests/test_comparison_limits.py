@@ -146,7 +146,7 @@ def test_perceptual_limits_have_the_same_names_too(pictures: Path, drapery: Run)
     ],
 )
 def test_a_wrong_limit_is_one_line(given: dict[str, Any], message: str) -> None:
-    with pytest.raises(OptionError, match="(?s)^[^\n]*$") as refused:
+    with pytest.raises(OptionError, match=r"(?s)^[^\n]*$") as refused:
         read_tolerance(given)
     assert message in str(refused.value)
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from drapery.commands import options as o
+from drapery.commands.compare_folders import check_target, folders_of
+from drapery.commands.compare_folders import compare as compare_folders
 from drapery.commands.notices import compile_notice
 from drapery.comparison import LIMIT_OPTIONS
 
@@ -15,6 +17,8 @@ if TYPE_CHECKING:
     from drapery.render import Frame
 
 ENDINGS = (".png", ".gif", ".html", ".json")
+_READING = {"form": "from", "number": "number"}
+"""How a design is read: the names of parameters and options."""
 
 
 @o.pictured("design", "texture", more=LIMIT_OPTIONS)
@@ -23,7 +27,7 @@ def run(
         list[str],
         typer.Argument(
             metavar="A [B]...",
-            help="Designs, one design and packs, or finished pictures.",
+            help="Designs, one design and packs, finished pictures, or two folders of them.",
             show_default=False,
         ),
     ],
@@ -33,7 +37,8 @@ def run(
             "-o",
             "--out",
             metavar="FILE",
-            help="Side by side as .png, flickering as .gif, a report as .html, figures as .json.",
+            help="Side by side as .png, flickering as .gif, a report as .html, figures as .json;"
+            " of folders the last two.",
         ),
     ] = None,
     perceptual: Annotated[
@@ -54,16 +59,23 @@ def run(
 
     Each --style is a picture of its own.
     """
-    from drapery.comparison import compare_variants, draw_variants, read_tolerance
+    from drapery.comparison import compare_variants, draw_variants, is_picture, read_tolerance
     from drapery.settings import Settings
 
+    folders = folders_of(subjects)
     for target in out or []:
+        if folders:
+            check_target(target)
         _check_target(target)
     limits = read_tolerance({name: words.pop(name) for name in LIMIT_OPTIONS})
+    if folders or any(is_picture(subject) for subject in subjects):
+        _refuse_options(words | {"layers": layers, "backend": backend}, cost)
+    if folders:
+        raise typer.Exit(compare_folders(folders, limits, out or (), perceptual=perceptual))
     modes, backends, styles = layers.split(","), backend.split(","), words.pop("style") or ()
     first = {"layers": modes[0], "backend": backends[0]}
     settings = Settings(**o.options_of(words | first))
-    reading = {name: words[name] for name in ("form", "number")}
+    reading = {name: words[name] for name in _READING}
     with compile_notice():
         chosen = draw_variants(subjects, settings, modes, backends, styles, **reading)
         pairs = compare_variants(chosen, limits, perceptual=perceptual)
@@ -75,6 +87,21 @@ def run(
     for target in out or []:
         _write(target, pairs, costs)
     raise typer.Exit(0 if all(pair.difference.agrees for pair in pairs) else 1)
+
+
+def _refuse_options(words: dict[str, Any], cost: bool) -> None:
+    """Raise OptionError for options that do nothing for finished pictures."""
+    from drapery.errors import OptionError
+    from drapery.settings import NAMED_OPTIONS
+
+    idle = ["--cost"] if cost else []
+    idle += [f"--{flag}" for name, flag in _READING.items() if words[name] is not None]
+    for name, option in NAMED_OPTIONS.items():
+        given = words.get(name)
+        if given not in (None, [], option.default, option.to_text(option.default)):
+            idle.append(option.command_flag)
+    if idle:
+        raise OptionError(f"{idle[0]} does nothing for finished pictures; leave it out")
 
 
 def _cost(variant: "Variant") -> dict[str, float]:

@@ -14,6 +14,12 @@ if TYPE_CHECKING:
     from drapery.comparison.cost import Cost, cost_of
     from drapery.comparison.difference import Difference
     from drapery.comparison.files import MAX_FILE
+    from drapery.comparison.folders import (
+        FilePair,
+        FolderFiles,
+        compare_folders,
+        folder_files,
+    )
     from drapery.comparison.ignored import ignored_pixels, painted
     from drapery.comparison.limit_values import read_tolerance
     from drapery.comparison.limits import LIMIT_OPTIONS
@@ -52,7 +58,7 @@ if TYPE_CHECKING:
     )
     from drapery.comparison.stills import measure_files
     from drapery.comparison.tolerance import EXACT, Tolerance
-    from drapery.comparison.variants import Variant, draw_variants
+    from drapery.comparison.variants import Variant, draw_variants, is_pack, is_picture
     from drapery.comparison.words import compared_words, difference_words
 
 __all__ = [
@@ -63,6 +69,8 @@ __all__ = [
     "Comparison",
     "Cost",
     "Difference",
+    "FilePair",
+    "FolderFiles",
     "Picture",
     "ReportEntry",
     "Tolerance",
@@ -71,6 +79,7 @@ __all__ = [
     "as_picture",
     "build_up_sheet",
     "compare",
+    "compare_folders",
     "compare_variants",
     "compared_words",
     "cost_of",
@@ -83,8 +92,11 @@ __all__ = [
     "draw_variants",
     "eight_bits",
     "errors",
+    "folder_files",
     "html_report",
     "ignored_pixels",
+    "is_pack",
+    "is_picture",
     "joined_panels",
     "measure",
     "measure_files",
@@ -110,6 +122,12 @@ __getattr__, __dir__ = lazy_names(
         "comparison.difference": ("Difference",),
         "comparison.files": ("MAX_FILE",),
         "comparison.ignored": ("ignored_pixels", "painted"),
+        "comparison.folders": (
+            "FilePair",
+            "FolderFiles",
+            "compare_folders",
+            "folder_files",
+        ),
         "comparison.limit_values": ("read_tolerance",),
         "comparison.limits": ("LIMIT_OPTIONS",),
         "comparison.loops": ("measure_pictures", "padded"),
@@ -147,7 +165,7 @@ __getattr__, __dir__ = lazy_names(
         ),
         "comparison.stills": ("measure_files",),
         "comparison.tolerance": ("EXACT", "Tolerance"),
-        "comparison.variants": ("Variant", "draw_variants"),
+        "comparison.variants": ("Variant", "draw_variants", "is_pack", "is_picture"),
         "comparison.words": ("compared_words", "difference_words"),
     },
 )

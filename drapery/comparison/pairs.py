@@ -186,16 +186,16 @@ def _step_name(variant: Variant, count: int) -> str:
     return f"layer {count} ({layer.pattern}, {layer.dye})"
 
 
-def pair_entry(pair: Comparison) -> ReportEntry:
-    """The pair as a part of a report."""
+def pair_entry(pair: Comparison, *, pictured: bool = True) -> ReportEntry:
+    """The pair as a part of a report. pictured: whether the part has pictures."""
     # Imported here: the words of blazon load a grammar, which only reports need.
     from drapery.banner import alt_text
 
-    pictures = [("side by side", data_address(pair_sheet(pair)))]
-    sheet = build_up_sheet(pair)
+    pictures = [("side by side", data_address(pair_sheet(pair)))] if pictured else []
+    sheet = build_up_sheet(pair) if pictured else None
     if sheet is not None:
         pictures.append(("built up layer by layer", data_address(sheet)))
-    facts = {k: v for k, v in pair_facts(pair).items() if v not in (None, (), {})}
+    facts = {k: _fact(v) for k, v in pair_facts(pair).items() if v not in (None, (), {})}
     banners = dict.fromkeys(
         one.banner for one in (pair.first, pair.other) if one.banner is not None
     )
@@ -203,6 +203,15 @@ def pair_entry(pair: Comparison) -> ReportEntry:
     return ReportEntry(
         *(pair.other.label, pair.difference.agrees, pair.line(), facts, tuple(pictures), shown)
     )
+
+
+def _fact(value: object) -> object:
+    """A fact as a page shows it."""
+    if isinstance(value, dict):
+        return "; ".join(f"{name} {_fact(each)}" for name, each in value.items())
+    if isinstance(value, tuple):
+        return ", ".join(str(_fact(each)) for each in value)
+    return value
 
 
 def pair_facts(pair: Comparison) -> dict[str, object]:

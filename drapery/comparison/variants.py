@@ -83,14 +83,14 @@ def draw_variants(
     Raises OptionError unless exactly one of designs, packs, layer modes, backends and styles
     varies.
     """
-    pictures = [subject for subject in subjects if _is_picture(subject)]
+    pictures = [subject for subject in subjects if is_picture(subject)]
     if pictures:
         if len(pictures) < len(subjects) or len(pictures) < 2:
             raise OptionError(f"{pictures[0]} is a picture; compare it only with other pictures")
         return [Variant(Path(p).name, read_picture(Path(p))) for p in pictures]
     from drapery.styles import find_style
 
-    packs = [subject for subject in subjects if _is_pack(subject)]
+    packs = [subject for subject in subjects if is_pack(subject)]
     designs = [subject for subject in subjects if subject not in packs]
     banners = [(text, _banner(text, form, number)) for text in designs]
     axes: Axes = {
@@ -142,11 +142,13 @@ def _drawn(
     return made
 
 
-def _is_picture(subject: str) -> bool:
+def is_picture(subject: str) -> bool:
+    """Whether a text is the path of a picture that can be compared."""
     return subject.lower().endswith(ENDINGS) and Path(subject).is_file()
 
 
-def _is_pack(subject: str) -> bool:
+def is_pack(subject: str) -> bool:
+    """Whether a text is the path of a resource pack."""
     path = Path(subject) if len(subject) < 1024 else Path()
     return (
         (path / "pack.mcmeta").is_file()
