@@ -4,7 +4,7 @@
 our own art or in that of `--pack`: the share that is found exactly and the processor time of each.
 `python -m benchmarks.match pictures --count 12` compares the mean CIEDE2000 of the best design with
 that of a greedy search on flags, letters, icons and paintings that are drawn here. It needs the
-extra `compare`. The greedy search is of the kind of Image2Banners: layer after layer it takes the
+extra `bench`. The greedy search is of the kind of Image2Banners: layer after layer it takes the
 pattern and dye with the least product of mean CIEDE2000 and of 2 minus the structural similarity.
 `--sheet FILE` shows pictures and banners beside each other.
 """

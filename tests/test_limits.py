@@ -176,7 +176,6 @@ def test_an_atlas_has_a_largest_size(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_compared_picture_has_a_largest_side(tmp_path: Path) -> None:
-    pytest.importorskip("skimage")
     from drapery.comparison.picture import read_picture
 
     path = tmp_path / "long.png"

@@ -42,7 +42,7 @@ def run(
         ),
     ] = None,
     perceptual: Annotated[
-        bool, typer.Option("--perceptual", help="SSIM, FLIP and CIEDE2000 (extra: compare).")
+        bool, typer.Option("--perceptual", help="SSIM, FLIP and CIEDE2000 as well.")
     ] = False,
     cost: Annotated[
         bool, typer.Option("--cost", help="Quads drawn and time for a frame as well.")

@@ -48,8 +48,8 @@ def measure(
     """Measure a picture, sRGB with straight alpha, shape [H, W, 4], against the expected one.
 
     expected, actual: uint8 or uint16; 16 bits count where both have them. ignored: pixels that do
-    not count, shape [H, W]. perceptual: SSIM, FLIP and CIEDE2000 as well; they take longer and
-    need the `compare` extra. Raises OptionError if the sizes differ or the extra is missing.
+    not count, shape [H, W]. perceptual: SSIM, FLIP and CIEDE2000 as well; they take longer.
+    Raises OptionError if the sizes differ.
     """
     old, new = _alike(expected, actual)
     found = _compared(old, new, tolerance, ignored)

@@ -91,7 +91,7 @@ def compare(
     """Compare two designs, both drawn with the same options, or two finished pictures.
 
     settings, options: as for `draw`. tolerance: what counts as a difference.
-    perceptual: measures SSIM, FLIP and CIEDE2000 too (extra: compare).
+    perceptual: measures SSIM, FLIP and CIEDE2000 too.
     Pictures of other sizes are different. Raises OptionError, and the errors of `draw`.
     """
     variants = [
