@@ -240,6 +240,32 @@ def test_the_memory_of_a_file_ends_at_its_limit():
         read_nbt(strings(MAX_MEMORY + 1000), "f")
 
 
+@pytest.mark.parametrize("name", ["BlockEntities", "TileEntities", "Entities", "block_entities"])
+def test_block_entities_and_entities_without_a_design_take_no_memory(name: str):
+    def entity(item: str) -> bytes:
+        note = 3000 * "x"
+        items = b"\x09\0\5Items\x0a\0\0\0\1\x08\0\2id" + text(item) + b"\0"
+        return b"\x08\0\4note" + text(note) + items + b"\0"
+
+    def text(of: str) -> bytes:
+        return struct.pack(">H", len(of)) + of.encode()
+
+    count = 20_000
+    many = [entity("minecraft:dirt")] * (count // 2)
+    body = b"".join([*many, entity("minecraft:red_banner"), *many])
+    head = b"\n\0\0\x09" + text(name) + b"\x0a" + struct.pack(">i", count + 1)
+    data = head + body + b"\0"
+    tracemalloc.start()
+    with untraced():
+        tree = read_nbt(data, "f")
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert [one["Items"] for one in tree[name]] == [[{"id": "minecraft:red_banner"}]]
+    assert peak < 2**20
+    with pytest.raises(DesignError, match="over 48 MiB of memory"):
+        read_nbt(head.replace(name.encode(), b"x" * len(name)) + body + b"\0", "f")
+
+
 def test_the_estimate_of_memory_is_cautious():
     item = {"Slot": nbtlib.Byte(300 % 128), "id": nbtlib.String("minecraft:red_banner")}
     box = nbtlib.Compound({"Items": nbtlib.List[nbtlib.Compound]([nbtlib.Compound(item)] * 27)})

@@ -96,3 +96,9 @@ def test_details_that_are_computed_are_not_kept() -> None:
 def test_a_program_is_recognised() -> None:
     assert recognise("const banner = { base: 'red' };").name == "javascript"
     assert recognise("{ id: 'red_banner' }").name != "javascript"
+
+
+@pytest.mark.parametrize("word", ["return run", "execute as @a run"])
+def test_a_command_is_no_program(word: str) -> None:
+    text = f"{word} summon item ~ ~ ~ {{a:[1,{{Item:{{id:red_banner,count:1}}}}]}}"
+    assert recognise(text).name != "javascript"

@@ -178,3 +178,9 @@ def test_what_is_understood_is_read(text: str, design: str) -> None:
 )
 def test_layers_are_recognised_in_any_text(text: str, is_one: bool) -> None:
     assert looks_like_design(text) == is_one
+
+
+def test_an_old_item_with_two_base_dyes_says_which_one_it_has() -> None:
+    text = "{id:banner,Damage:0s,Count:1b,tag:{BlockEntityTag:{Base:4,Patterns:[]}}}"
+    with pytest.warns(UserWarning, match="the base is blue, by its Base, .* show black"):
+        assert parse_banner(text) == parse_banner("blue")

@@ -32,7 +32,7 @@ _START = re.compile(r"(?:(?<![=!<>])=|[(,]|\breturn|\bdefault)\s*(?=[{\[])")
 """What stands before a value, as far as it may be an object or a list."""
 _BEGINNING = re.compile(
     r"(?:\s|//[^\n]*|/\*.*?\*/|['\"]use strict['\"];)*+"
-    r"(?:(?:const|let|var|import|export|function|return|module\.exports)\b"
+    r"(?:(?:const|let|var|import|export|module\.exports)\b"
     r"|[\w$.]{1,80}\(\s*[{\[])",
     re.DOTALL,
 )

@@ -41,6 +41,12 @@ Length: TypeAlias = Callable[[bytes, int], tuple[Any, ...]]
 _COST = (0, *(80,) * 6, 80, 80, 136, 176, 176, 176)
 """Estimated memory of a tag of each kind with its entry, without a string's letters [bytes]."""
 
+WORDS = (b"banner", b"Banner", b"shield")
+"""What holds a design has one of these in its bytes."""
+
+_SCANNED = frozenset({"BlockEntities", "TileEntities", "block_entities", "Entities", "entities"})
+"""Lists of which only those compounds are kept that may hold a design."""
+
 _LEAST_ROWS = 64
 """Fewer equal compounds in a row are read one by one."""
 
@@ -93,6 +99,7 @@ class _List:
     left: int
     single: int = 0
     pause: int = 1
+    scanned: bool = False
 
 
 Container: TypeAlias = dict[str, DataTree] | _List
@@ -100,13 +107,17 @@ Container: TypeAlias = dict[str, DataTree] | _List
 
 @dataclass
 class _Cursor:
-    """The state of reading: the place in the bytes, the memory still allowed, the names so far."""
+    """The state of reading: the place in the bytes, the memory still allowed, the names so far.
+
+    names_memory: what of the memory the names take.
+    """
 
     data: bytes
     at: int
     codec: Codec
     memory_left: int = MAX_MEMORY
     names: dict[bytes, str] = field(default_factory=dict)
+    names_memory: int = 0
 
     def spend(self, memory: int) -> None:
         self.memory_left -= memory
@@ -179,14 +190,36 @@ def _read_root(cursor: _Cursor) -> dict[str, DataTree]:
 def _grow(cursor: _Cursor, root: dict[str, DataTree]) -> None:
     """Fill the containers from the innermost open one, without recursion."""
     stack: list[Container] = [root]
+    scanned: _Scanned | None = None
     while stack:
-        child = _fill(cursor, stack[-1])
+        parent = stack[-1]
+        child = _fill(cursor, parent)
         if child is None:
             stack.pop()
+            if scanned and len(stack) == scanned.depth:
+                scanned.leave_out(cursor)
+                scanned = None
         elif len(stack) < MAX_DEPTH:
+            if scanned is None and isinstance(parent, _List) and parent.scanned:
+                scanned = _Scanned(parent.items, len(stack), cursor)
             stack.append(child)
         else:
             raise _BytesError(f"nested over {MAX_DEPTH} deep at byte {cursor.at}; flatten it")
+
+
+class _Scanned:
+    """A compound of a list of which only those are kept that may hold a design."""
+
+    def __init__(self, items: list[DataTree], depth: int, cursor: _Cursor) -> None:
+        self.items, self.depth, self.start = items, depth, cursor.at
+        self.memory = cursor.memory_left + cursor.names_memory
+
+    def leave_out(self, cursor: _Cursor) -> None:
+        """Take the compound, which ends here, out of its list if it holds no design."""
+        inner = cursor.data[self.start : cursor.at]
+        if not any(word in inner for word in WORDS):
+            self.items.pop()
+            cursor.memory_left = self.memory - cursor.names_memory + _COST[_COMPOUND]
 
 
 def _fill(cursor: _Cursor, container: Container) -> Container | None:
@@ -217,6 +250,8 @@ def _fill_compound(cursor: _Cursor, node: dict[str, DataTree]) -> Container | No
             continue
         cursor.at = stop
         node[name], child = _open(cursor, kind)
+        if isinstance(child, _List):
+            child.scanned = name in _SCANNED
         if child is not None:
             return child
     cursor.at += 1
@@ -351,9 +386,11 @@ def _values(cursor: _Cursor, reader: Reader, length: int) -> list[DataTree]:
 def _new_name(cursor: _Cursor, raw: bytes) -> str:
     name = _text(raw)
     # Compounds of many names grow in steps, so that an entry may take twice its place.
-    cursor.spend(64 + name.__sizeof__())
+    memory = 64 + name.__sizeof__()
+    cursor.spend(memory)
     if len(cursor.names) < MAX_NAMES:
         cursor.names[raw] = name
+        cursor.names_memory += memory
     return name
 
 

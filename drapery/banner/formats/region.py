@@ -17,7 +17,7 @@ from drapery.banner.formats.blocks import OnError, raise_error
 from drapery.banner.formats.compression import check_size, inflate
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.lz4 import unlz4
-from drapery.banner.formats.nbt import read_nbt
+from drapery.banner.formats.nbt import WORDS, read_nbt
 from drapery.errors import DesignError
 from drapery.user_files import read_user_file
 
@@ -38,9 +38,6 @@ MAX_BANNERS = 20_000
 KINDS = {1: "gzip", 2: "zlib", 3: "none", 127: "one of a mod's own"}
 _LZ4 = 4
 _OWN_FILE = 0x80
-_WORDS = (b"banner", b"Banner", b"shield")
-"""A chunk without any of these in its bytes has no design and is not parsed."""
-
 _FILE_NAME = re.compile(r"r\.(-?[0-9]{1,9})\.(-?[0-9]{1,9})\.mc[ar]")
 
 
@@ -85,7 +82,7 @@ def find(
             data = _unpacked(file, place, folder, f"c.{x}.{z}.mcc", at)
             unpacked += len(data)
             check_size(unpacked, where, limit)
-            if any(word in data for word in _WORDS):
+            if any(word in data for word in WORDS):
                 yield from _limited(chunk.find(read_nbt(data, at), at, on_error), at)
         except DesignError as error:
             on_error(error)

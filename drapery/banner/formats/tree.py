@@ -216,7 +216,7 @@ def banner_from_tag(item_id: str, tag: DataTree, at: str = "", *, data: DataTree
         # A missing damage value is 0, which is black.
         entity = entity | {"Base": 0 if data is None else data}
     banner = banner_from_block_entity(entity, inner, block=item_id)
-    if base_of(item_id) is None and type(data) is int and data in range(16):
+    if base_of(item_id) is None and isinstance(data, int) and data in range(16):
         _warn_of_dyes(banner.base, _dye(data, at, inverted=True), at)
     return banner
 
