@@ -244,3 +244,40 @@ def test_figures_are_told_the_same_everywhere() -> None:
     tolerance = Tolerance(2)
     words = difference_words(measure_pictures(a, b, tolerance), tolerance)
     assert words == "16 pixels differ (tolerance 2), max 3, in columns 0 to 3 of rows 0 to 3"
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "cause", "hidden"),
+    [
+        ("white creeper:lime base:red", "white base:red", None, "only the first has"),
+        ("white base:red", "white creeper:lime base:red", None, "only the second has"),
+        (
+            "white creeper:lime base:red border:black",
+            "white skull:blue base:blue border:black",
+            "layer 2 (base, blue) in place of layer 2 (base, red)",
+            "layer 1 (skull, blue) in place of layer 1 (creeper, lime)",
+        ),
+        (
+            "white creeper:lime",
+            "white skull:blue base:red",
+            "layer 2 (base, red), which only the second has",
+            "layer 1 (skull, blue) in place of layer 1 (creeper, lime)",
+        ),
+        (
+            "white base:red border:white",
+            "black base:red border:black",
+            "layer 2 (border, black) in place of layer 2 (border, white)",
+            None,
+        ),
+    ],
+)
+def test_layers_that_cannot_be_seen_are_named_as_such(
+    first: str, second: str, cause: str | None, hidden: str | None
+) -> None:
+    found = compare(Banner.parse(first), Banner.parse(second), **SMALL)
+    assert found.culprit == cause
+    if hidden is not None:
+        (layer,) = found.hidden_layers
+        assert hidden in layer and f"{layer}; it cannot be seen" in found.line()
+    if cause is not None:
+        assert f"; from {cause} on" in found.line()

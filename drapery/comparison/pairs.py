@@ -1,10 +1,10 @@
 """Comparison of two pictures, and the first layer with which they differ."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Unpack
 
-from drapery.comparison.alignment import align
+from drapery.comparison.alignment import Aligned, align
 from drapery.comparison.difference import Difference
 from drapery.comparison.loops import measure_pictures
 from drapery.comparison.panels import side_by_side
@@ -26,19 +26,19 @@ class BuildUpStep:
     """Two designs, each with its first layers only, and how their pictures differ.
 
     names: what the step adds to each design; None where it adds nothing.
+    changed: whether the designs differ in it. hidden: whether that cannot be seen at the end.
     """
 
     names: tuple[str | None, str | None]
     first: Frame
     other: Frame
     difference: Difference
+    changed: bool = False
+    hidden: bool = False
 
     def described(self) -> str:
-        """The step in words: a layer that one design lacks is named as such."""
-        old, new = self.names
-        if old is None or new is None:
-            return f"{old or new}, which only the {'second' if old is None else 'first'} has"
-        return old if old == new else f"{new} in place of {old}"
+        """The step in words."""
+        return _described(*self.names)
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,7 @@ class Comparison:
     tolerance: what counts as a difference.
     build_up: one step for the base, and one for each layer of both designs, or of one if the other
         has no such layer; empty for finished pictures.
+    hidden_layers: what differs in the designs and cannot be seen, in words.
     """
 
     first: Variant
@@ -55,6 +56,7 @@ class Comparison:
     difference: Difference
     build_up: tuple[BuildUpStep, ...]
     tolerance: Tolerance = EXACT
+    hidden_layers: tuple[str, ...] = ()
 
     @property
     def culprit(self) -> str | None:
@@ -62,6 +64,9 @@ class Comparison:
 
         What differs in between and is then hidden by layers above is no cause.
         """
+        for step in self.build_up:
+            if step.changed and not step.hidden:
+                return step.described()
         cause = None
         for step in reversed(self.build_up):
             if step.difference.agrees:
@@ -72,7 +77,9 @@ class Comparison:
     def line(self) -> str:
         """The result in one line."""
         names = self.first.label, self.other.label
-        return compared_words(*names, self.difference, self.tolerance, self.culprit)
+        return compared_words(
+            *names, self.difference, self.tolerance, self.culprit, self.hidden_layers
+        )
 
     def sheet(self) -> Frame:
         """Both pictures and their difference side by side."""
@@ -122,28 +129,96 @@ def _pair(
 ) -> Comparison:
     pictures = first.picture, other.picture
     difference = measure_pictures(*pictures, tolerance, perceptual=perceptual)
-    differ = first.banner is not None and other.banner is not None and not difference.same
-    steps = tuple(_build_up(first, other, tolerance)) if differ else ()
-    return Comparison(first, other, difference, steps, tolerance)
+    if first.banner is None or other.banner is None:
+        return Comparison(first, other, difference, (), tolerance)
+    steps = [((-1, -1)), *align(first.banner.layers, other.banner.layers)]
+    changed = [number for number, step in enumerate(steps) if _differs(first, other, step)]
+    if difference.same:
+        words = tuple(_described(*_names(first, other, steps[number])) for number in changed)
+        return Comparison(first, other, difference, (), tolerance, words)
+    hidden = _hidden(first, other, steps, changed, tolerance)
+    build_up = tuple(
+        replace(step, changed=number in changed, hidden=number in hidden)
+        for number, step in enumerate(_build_up(first, other, steps, tolerance))
+    )
+    words = tuple(build_up[number].described() for number in hidden)
+    return Comparison(first, other, difference, build_up, tolerance, words)
 
 
-def _build_up(first: Variant, other: Variant, tolerance: Tolerance) -> Iterator[BuildUpStep]:
+def _differs(first: Variant, other: Variant, step: Aligned) -> bool:
+    """Whether two designs differ in a step."""
+    return _part(first, step[0]) != _part(other, step[1])
+
+
+def _part(variant: Variant, place: int | None) -> object:
+    """The layer of a design at a place, or its base at -1; None at None."""
+    if place is None or variant.banner is None:
+        return None
+    return variant.banner.layers[place] if place >= 0 else variant.banner.base
+
+
+def _hidden(
+    first: Variant,
+    other: Variant,
+    steps: Sequence[Aligned],
+    changed: Sequence[int],
+    tolerance: Tolerance,
+) -> list[int]:
+    """The steps that make no difference at the end: undone in the second design, it looks the same.
+
+    None if that holds for each of them, as where one step hides what another one does.
+    """
+    if len(changed) < 2:
+        return []
+    found = []
+    for number in changed:
+        undone = as_picture(_undone(first, other, steps, number))
+        if measure_pictures(other.picture, undone, tolerance).agrees:
+            found.append(number)
+    return [] if len(found) == len(changed) else found
+
+
+def _undone(first: Variant, other: Variant, steps: Sequence[Aligned], number: int) -> Frame:
+    """The second design with a step of the first in place of its own."""
+    assert first.banner is not None and other.banner is not None
+    base = first.banner.base if number == 0 else other.banner.base
+    layers = []
+    for each, (old, new) in enumerate(steps[1:], 1):
+        source, place = (first.banner, old) if each == number else (other.banner, new)
+        if place is not None:
+            layers.append(source.layers[place])
+    return other.drawn(replace(other.banner, base=base, layers=tuple(layers)))
+
+
+def _build_up(
+    first: Variant, other: Variant, steps: Sequence[Aligned], tolerance: Tolerance
+) -> Iterator[BuildUpStep]:
     """The steps of both designs side by side; equal layers belong together."""
-    layers = [variant.banner.layers for variant in (first, other) if variant.banner is not None]
     counts = [0, 0]
-    for places in ((-1, -1), *align(*layers)):
+    for places in steps:
         counts = [
             count if place is None else place + 1
             for count, place in zip(counts, places, strict=True)
         ]
         pictures = first.with_layers(counts[0]), other.with_layers(counts[1])
-        names = [
-            None if place is None else _step_name(variant, place + 1)
-            for variant, place in zip((first, other), places, strict=True)
-        ]
-        old, new = map(as_picture, pictures)
-        difference = measure_pictures(old, new, tolerance)
-        yield BuildUpStep((names[0], names[1]), *pictures, difference)
+        difference = measure_pictures(*map(as_picture, pictures), tolerance)
+        yield BuildUpStep(_names(first, other, places), *pictures, difference)
+
+
+def _names(first: Variant, other: Variant, step: Aligned) -> tuple[str | None, str | None]:
+    """What a step adds to each design."""
+    old, new = (
+        None if place is None else _step_name(variant, place + 1)
+        for variant, place in zip((first, other), step, strict=True)
+    )
+    return old, new
+
+
+def _described(old: str | None, new: str | None) -> str:
+    """A step in words: a layer that one design lacks is named as such."""
+    if old is None or new is None:
+        return f"{old or new}, which only the {'second' if old is None else 'first'} has"
+    return old if old == new else f"{new} in place of {old}"
 
 
 def pair_sheet(pair: Comparison) -> Frame:
@@ -220,6 +295,7 @@ def pair_facts(pair: Comparison) -> dict[str, object]:
         "a": pair.first.label,
         "b": pair.other.label,
         "from": pair.culprit,
+        "hidden_layers": pair.hidden_layers,
         "limits": pair.tolerance.limits(),
         **pair.difference.as_dict(),
     }

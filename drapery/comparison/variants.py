@@ -36,11 +36,15 @@ class Variant:
 
     def with_layers(self, count: int) -> Frame:
         """The picture with the first `count` layers; a finished picture has no others."""
-        if self.banner is None or self.settings is None:
+        if self.banner is None:
             return self.frame
+        return self.drawn(replace(self.banner, layers=self.banner.layers[:count]))
+
+    def drawn(self, banner: "Banner") -> Frame:
+        """Another design with the same options."""
         from drapery.pictures import draw
 
-        return draw(replace(self.banner, layers=self.banner.layers[:count]), self.settings)
+        return draw(banner, self.settings)
 
     @property
     def frame(self) -> Frame:

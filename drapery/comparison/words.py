@@ -18,16 +18,21 @@ def difference_words(difference: Difference, tolerance: Tolerance) -> str:
 
 
 def compared_words(
-    first: str, other: str, difference: Difference, tolerance: Tolerance, cause: str | None = None
+    first: str,
+    other: str,
+    difference: Difference,
+    tolerance: Tolerance,
+    cause: str | None = None,
+    hidden: Sequence[str] = (),
 ) -> str:
     """The names of two pictures and how they differ, in one line.
 
-    cause: the layer from which on they differ.
+    cause: the layer from which on they differ. hidden: layers that differ and cannot be seen.
     """
     words = difference_words(difference, tolerance)
-    if difference.same:
-        return f"{first} and {other} are {words}"
-    return f"{first} and {other}: {words}" + (f"; from {cause} on" if cause else "")
+    words += f"; from {cause} on" if cause and not difference.same else ""
+    words += "".join(f"; {layer}; it cannot be seen" for layer in hidden)
+    return f"{first} and {other}{' are' if difference.same else ':'} {words}"
 
 
 def named_frames(numbers: Sequence[int]) -> str:
