@@ -44,7 +44,7 @@ if TYPE_CHECKING:
         save_frame,
     )
     from drapery.render.encode.output import check_writable, make_folder, replacing
-    from drapery.render.encode.png import apng_bytes, png_bytes
+    from drapery.render.encode.png import apng_bytes, png_bytes, quick_png_bytes
     from drapery.render.encode.webp import webp_bytes
     from drapery.render.export import MODEL_ENDINGS, check_model_target, save_model
     from drapery.render.flatten import composite_layers
@@ -122,6 +122,7 @@ __all__ = [
     "pins_model",
     "png_bytes",
     "projection_matrix",
+    "quick_png_bytes",
     "replacing",
     "save_animation",
     "save_frame",
@@ -163,7 +164,7 @@ __getattr__, __dir__ = lazy_names(
             "save_frame",
         ),
         "render.encode.output": ("check_writable", "make_folder", "replacing"),
-        "render.encode.png": ("apng_bytes", "png_bytes"),
+        "render.encode.png": ("apng_bytes", "png_bytes", "quick_png_bytes"),
         "render.encode.webp": ("webp_bytes",),
         "render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
         "render.flatten": ("composite_layers",),

@@ -67,6 +67,8 @@ def contact_table(across: Sequence[str], down: Sequence[str], pictures: Sequence
 
 def stack_frames(frames: Sequence[Frame]) -> Frame:
     """Pictures below one another on a light background, aligned at the left."""
+    if len(frames) == 1:
+        return frames[0]
     width = max(frame.pixels.shape[1] for frame in frames)
     height = sum(frame.pixels.shape[0] for frame in frames)
     sheet = np.full((height, width, 4), PAPER, np.uint8)
@@ -80,13 +82,17 @@ def stack_frames(frames: Sequence[Frame]) -> Frame:
 
 def on_checker(pixels: Pixels, cell: int = 8) -> Pixels:
     """The picture over a light checker, which shows transparency."""
+    if pixels[..., 3].min() == 255:
+        return pixels
     height, width = pixels.shape[:2]
     rows, columns = np.ogrid[:height, :width]
-    board = np.where((rows // cell + columns // cell) % 2, *CHECKER)[..., None]
+    dark, light = (np.uint16(grey) for grey in CHECKER)
+    board = np.where((rows // cell + columns // cell) % 2, dark, light)[..., None]
     alpha = pixels[..., 3:].astype(np.uint16)
-    mixed = (pixels[..., :3] * alpha + board * (255 - alpha) + 127) // 255
-    opaque = np.full((height, width, 1), 255)
-    return np.concatenate([mixed, opaque], axis=-1).astype(np.uint8)
+    mixed = np.full(pixels.shape, 255, np.uint8)
+    # At most 255 * 255 + 127, which fits in 16 bits.
+    mixed[..., :3] = (pixels[..., :3] * alpha + board * (255 - alpha) + np.uint16(127)) // 255
+    return mixed
 
 
 def _largest(pictures: Sequence[Pixels]) -> tuple[int, int]:

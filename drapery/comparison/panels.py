@@ -3,13 +3,15 @@
 import numpy as np
 
 from drapery.comparison.loops import left_out, padded
-from drapery.comparison.metrics import BEYOND, SAME, difference_map, eight_bits, errors
+from drapery.comparison.metrics import BEYOND, difference_map, eight_bits, errors
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.picture_pixels import Channels
 from drapery.render import Frame, Pixels, contact_sheet, enlarge, on_checker
 
 _WITHIN = np.array((240, 178, 40))
 """The colour of pixels that differ within the tolerance: amber."""
+_FAINT = (210 + np.arange(3 * 255 + 1) / 3 * 45 / 255).astype(np.uint8)
+"""The faint grey of a pixel, by the sum of its red, green and blue."""
 
 
 def difference_panel(
@@ -28,16 +30,18 @@ def difference_panel(
     ignored = left_out(expected, actual, tolerance)
     kinds = difference_map(old, new, tolerance, ignored=ignored)
     old, new = eight_bits(old), eight_bits(new)
-    worst = errors(old, new).astype(np.int32)
-    luminance = on_checker(old)[..., :3].astype(np.int32).mean(axis=-1)
-    faint = (210 + luminance * 45 / 255).astype(np.int32)
-    strength = np.clip(worst * gain, 96, 255)
-    panel = np.repeat(faint[..., None], 4, axis=-1)
-    panel[..., 3] = 255
-    red = np.stack([255 - strength // 8, *[224 - strength * 224 // 255] * 2], axis=-1)
-    panel[..., :3] = np.where((kinds == BEYOND)[..., None], red, panel[..., :3])
-    panel[(kinds != BEYOND) & (kinds != SAME), :3] = _WITHIN
-    return panel.astype(np.uint8)
+    panel = np.full(old.shape, 255, np.uint8)
+    shown = on_checker(old)
+    brightness = shown[..., 0].astype(np.uint16) + shown[..., 1] + shown[..., 2]
+    panel[..., :3] = _FAINT[brightness][..., None]
+    places = np.flatnonzero(kinds)
+    beyond = places[kinds.reshape(-1)[places] == BEYOND]
+    (worst,) = errors(*(each.reshape(1, -1, 4)[:, beyond] for each in (old, new)))
+    strength = np.clip(worst.astype(np.int32) * gain, 96, 255)
+    pixels = panel.reshape(-1, 4)
+    pixels[places, :3] = _WITHIN
+    pixels[beyond, :3] = np.stack([255 - strength // 8, *[224 - strength * 224 // 255] * 2], -1)
+    return panel
 
 
 def side_by_side(
