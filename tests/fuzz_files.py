@@ -18,7 +18,8 @@ import trimesh
 from fuzzing import Target
 from PIL import Image
 
-from drapery.comparison.picture import FORMATS, decode_picture
+from drapery.comparison.files import FORMATS
+from drapery.comparison.picture import decode_picture
 from drapery.garments import Garment, tailor
 from drapery.garments.motions import find_motion
 from drapery.garments.profiles import read_profile
@@ -180,7 +181,10 @@ def _skin(data: bytes) -> Iterable[Any]:
 
 
 def _pixels(data: bytes) -> Iterable[Any]:
-    with mock.patch("drapery.comparison.picture.MAX_PIXELS", MAX_PIXELS):
+    with (
+        mock.patch("drapery.comparison.files.MAX_PIXELS", MAX_PIXELS),
+        mock.patch("drapery.comparison.picture.MAX_PIXELS", MAX_PIXELS),
+    ):
         return [decode_picture(data, "picture")]
 
 
