@@ -49,9 +49,9 @@ def read_style_file(path: str | Path) -> tuple[StyleFile, tuple[StyleStep, ...]]
         place = tuple(fault["loc"])
         raise OptionError(f"{locate(path, text, place)}: {_complaint(fault, place)}") from None
     steps = tuple(_steps(parsed, path, text))
-    if fault := chain_fault(steps):
-        where = locate(path, text, (fault.kind, fault.number, "step"))
-        raise OptionError(f"{where}: {fault.message}")
+    if excess := chain_fault(steps):
+        where = locate(path, text, (excess.kind, excess.number, "step"))
+        raise OptionError(f"{where}: {excess.message}")
     return parsed, steps
 
 
