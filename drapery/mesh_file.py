@@ -60,9 +60,8 @@ def read_mesh_file(
     try:
         with _quiet():
             parts = [*_parts(checked, ending)]
-    except Exception as fault:  # trimesh's readers raise errors of many types
-        said = " ".join(str(fault).split())[:200] or type(fault).__name__
-        raise OptionError(f"{name} cannot be read ({said}); export it again") from None
+    except Exception:  # trimesh's readers raise errors of many types
+        raise OptionError(f"{name} cannot be read; export it again, with faces") from None
     if not parts:
         raise OptionError(f"{name} has no triangles; export it with faces")
     limits.check_faces(sum(len(part.triangles) for part in parts))

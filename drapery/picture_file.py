@@ -72,9 +72,8 @@ def opened_picture(
         *first, last = (each.replace("WEBP", "WebP") for each in formats)
         known = " or ".join(filter(None, (", ".join(first), last)))
         raise OptionError(f"{name} is not a picture that can be read; save it as {known}") from None
-    except Exception as error:  # Pillow's readers raise errors of many types
-        said = " ".join(str(error).split())[:200]
-        raise OptionError(f"{name} is a broken picture ({said}); save it again") from None
+    except Exception:  # Pillow's readers raise errors of many types
+        raise OptionError(f"{name} is a broken picture; save it again") from None
 
 
 def _opened(data: bytes, formats: Sequence[str]) -> "Image":

@@ -44,7 +44,15 @@ def parse_toml(text: str, where: object) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        raise OptionError(f"{where} is not TOML: {error}; correct that line") from None
+        raise OptionError(f"{where}{_at(error)} is not TOML; correct it there") from None
+
+
+def _at(error: Exception) -> str:
+    """The place of a fault, which Python 3.14 gives and versions before have in their text only."""
+    line, column = getattr(error, "lineno", None), getattr(error, "colno", None)
+    if line is None and (found := re.search(r"line (\d+), column (\d+)", str(error))):
+        line, column = found.groups()
+    return "" if line is None else f" line {line}, column {column}"
 
 
 def _check_bounds(text: str, where: object) -> None:

@@ -78,5 +78,9 @@ def shown_path(path: str | Path) -> str:
 
 
 def reason(fault: BaseException) -> str:
-    """The system's message for an error."""
-    return getattr(fault, "strerror", None) or str(fault) or type(fault).__name__
+    """The system's message for an error of its own; what the others mean for the name of a file."""
+    if isinstance(fault, OSError):
+        return fault.strerror or "the system refuses it"
+    if isinstance(fault, RuntimeError):
+        return "its links lead round in a circle"
+    return "its name cannot be written in this system"

@@ -1,8 +1,8 @@
 """YAML from users: one safe loader with bounds on depth, on aliases and on numbers.
 
 The caller limits the length of the text. PyYAML composes recursively and expands aliases, so the
-stream of events is checked before any value is built from it. Only for a fault of the syntax does
-a message quote PyYAML; its limits and its other texts differ between versions.
+stream of events is checked before any value is built from it. No message quotes PyYAML, whose
+limits and texts differ between versions.
 """
 
 from collections.abc import Callable, Iterator
@@ -19,8 +19,6 @@ MAX_REPEATED = 100_000
 """The most values that aliases may repeat in one document."""
 MAX_NUMBER = 100
 """The most characters of one number."""
-MAX_REASON = 200
-"""The most characters of the parser's reason in a message."""
 
 
 class LocatedList(list[Any]):
@@ -43,8 +41,7 @@ def load_yaml(text: str, where: object) -> Any:
     except _YamlFaultError as fault:
         place, reason = _at(fault.mark), fault.reason
     except yaml.MarkedYAMLError as error:
-        place = _at(error.problem_mark or error.context_mark)
-        reason = ", ".join(filter(None, (error.context, error.problem))) or "not YAML"
+        place, reason = _at(error.problem_mark or error.context_mark), _fault(text, error)
     except yaml.reader.ReaderError as error:
         place, reason = (
             _place(text, error.position),
@@ -53,11 +50,8 @@ def load_yaml(text: str, where: object) -> Any:
     except UnicodeEncodeError as error:  # half of a pair of surrogates
         place = _place(text, error.start)
         reason = f"character {text[error.start]!r} is not allowed"
-    except yaml.YAMLError as error:
-        place, reason = "", str(error)
-    reason = " ".join(reason.split())
-    if len(reason) > MAX_REASON:
-        reason = reason[:MAX_REASON] + " ..."
+    except yaml.YAMLError:
+        place, reason = "", "not YAML"
     raise OptionError(f"{where}{place}: {reason}; correct the YAML there")
 
 
@@ -70,6 +64,18 @@ class _YamlFaultError(Exception):
 
 def _at(mark: Any) -> str:
     return "" if mark is None else f", line {mark.line + 1}, column {mark.column + 1}"
+
+
+def _fault(text: str, error: yaml.MarkedYAMLError) -> str:
+    """What cannot stand at a place, and where that begins of which it would be a part."""
+    mark, start = error.problem_mark, error.context_mark
+    if mark is None:
+        return "not YAML"
+    what = repr(text[mark.index]) if mark.index < len(text) else "the end of the text"
+    if what == "'\\t'":
+        return "a tab cannot stand here; use spaces"
+    inside = "" if start is None else f" in what begins in line {start.line + 1}"
+    return f"{what} cannot stand here{inside}"
 
 
 def _place(text: str, position: int) -> str:

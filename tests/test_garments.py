@@ -100,7 +100,7 @@ def test_a_file_of_the_package_is_short_and_complete(name: str) -> None:
         ("speed = 2.5", "speed = 25", 4, "speed 25 cannot be used; it should be less than"),
         ("speed = 2.5", 'solid = ["tail"]', 3, "solid 'tail' is not a bone; use some of: head"),
         ('name = "cape"', 'name = "Cape"', 6, "name 'Cape' cannot be used; it should match"),
-        ("[10, 16]", "[10, true]", 7, "size True cannot be used; it should be a valid number"),
+        ("[10, 16]", "[10, true]", 7, "size True cannot be used; it should be a number"),
         ("size = [10, 16]\n", "", 5, "size is missing; add it"),
         ("[10, 16]", "[10]", 7, "size has too few values: 1; give at least 2"),
         ("size", "extent", 7, "extent is not a field here; use one of: name, place, turn"),

@@ -24,6 +24,7 @@ FOUNDATION = {
     *("aot", "jit_cache", "jit_calls", "kernel_sources"),
     *("lazy", "toml_text", "player_settings"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
+    *("json_text", "model_faults"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets", "match"}
@@ -52,7 +53,9 @@ ALLOWED: dict[str, set[str]] = {
     "picture_file": {"errors"},
     "picture_pixels": {"errors"},
     "sqlite_faults": set(),
-    "mesh_headers": {"errors", "picture_file"},
+    "json_text": set(),
+    "model_faults": set(),
+    "mesh_headers": {"errors", "json_text", "picture_file"},
     "mesh_file": {"errors", "mesh", "mesh_headers", "user_files"},
     "assets": set(),
     "banner": {"assets"},

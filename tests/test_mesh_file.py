@@ -150,7 +150,7 @@ HOSTILE: dict[str, tuple[str, Callable[[], bytes | str], str]] = {
     "no number": (".obj", lambda: "v 0 0 x\n", "line 1: v is followed by no place"),
     "not finite": (".obj", lambda: OBJ + "v nan 0 0\nf 1 2 3\nf 1 2 4", "4 vertices.*vertex 3"),
     "no text": (".obj", lambda: b"v 0 0 0\xff", "no text in UTF-8"),
-    "no faces": (".obj", lambda: OBJ, "export it with faces|no triangles"),
+    "no faces": (".obj", lambda: OBJ, "with faces"),
     "texture of a PLY file": (
         ".ply", lambda: PLY.format("comment TextureFile a b.png\n", 3), "another file, 'a b.png'",
     ),

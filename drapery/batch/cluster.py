@@ -201,8 +201,8 @@ def connect(address: str, store: Store, limits: JobLimits) -> DaskExecutor:
         return DaskExecutor(distributed.Client(address, timeout=15), store, limits)
     except Exception as error:
         # Dask's protocols raise different errors: TypeError for tls:// without certificates.
-        reason = " ".join(str(error).split())[:200]
-        raise BackendError(f"no scheduler at {address}: {reason}; check the address") from None
+        name = type(error).__name__
+        raise BackendError(f"no scheduler at {address} ({name}); check the address") from None
 
 
 def _distributed() -> Any:

@@ -16,6 +16,7 @@ from drapery.option import Option, shown
 from drapery.options import check_options, one_line, unknown_names
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
+from drapery.user_files import reason
 
 if TYPE_CHECKING:
     from drapery.garments import Garment
@@ -268,8 +269,10 @@ def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
         if _is_file(folder, text):
             return read_design(folder / text)
         design = _parsed(text)
-    except (DesignError, OSError) as error:
+    except DesignError as error:
         design = str(error)
+    except OSError as error:
+        design = f"{shown(text)} cannot be read: {reason(error)}"
     if isinstance(design, Banner):
         return design
     faults.append(f"design: {design}")

@@ -15,6 +15,7 @@ from drapery.batch import worker as worker_process
 from drapery.batch.executor import RetryPolicy
 from drapery.batch.jobs import OUT_OF_MEMORY, Job, JobResult
 from drapery.errors import BackendError
+from drapery.user_files import reason
 
 CHECK_INTERVAL = 0.1
 """How often the workers' time and memory are checked [s]."""
@@ -177,7 +178,7 @@ class ProcessPool:
             try:
                 self._workers.append(self._spawn())
             except OSError as error:
-                self._start_failed(error.strerror or str(error))
+                self._start_failed(reason(error))
 
     def _spawn(self) -> _Worker:
         # A new interpreter: a fork of a process with threads is not safe.

@@ -2,7 +2,6 @@
 
 import csv
 import io
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Any, TypeAlias
 
 from drapery import Banner
 from drapery.errors import DesignError, DraperyError, OptionError
-from drapery.options import one_line
+from drapery.json_text import JSONTextError, parse_json
 from drapery.user_files import read_user_file, reason, shown_path
 
 MAX_TEXT = 512 << 20
@@ -94,8 +93,9 @@ def _csv(path: Path) -> Rows:
             elif any(cell.strip() for cell in cells):
                 filled = {n: c.strip() for n, c in zip(names, cells, strict=False) if c.strip()}
                 yield ManifestRow(place, {**defaults, **filled})
-    except csv.Error as error:
-        yield ManifestFault(f"line {line}", f"{error}; correct the quotes there")
+    except csv.Error:
+        message = f"not CSV; close its quotes, and use at most {MAX_CELL} characters in a cell"
+        yield ManifestFault(f"line {line}", message)
 
 
 def _csv_defaults(text: io.StringIO) -> tuple[dict[str, str], int]:
@@ -124,10 +124,9 @@ def _json_lines(path: Path) -> Rows:
         if not line.strip():
             continue
         try:
-            values = json.loads(line)
-        except (ValueError, RecursionError) as error:
-            message = f"not JSON ({one_line(str(error))}); write one object on a line"
-            yield ManifestFault(place, message)
+            values = parse_json(line)
+        except JSONTextError:
+            yield ManifestFault(place, "not JSON; write one object on a line")
             continue
         if not isinstance(values, dict):
             yield ManifestFault(place, "not an object; write {...} with the job's options")

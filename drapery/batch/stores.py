@@ -111,8 +111,7 @@ class RemoteStore:
                 fs.mv(beside, path)
         except Exception as error:
             # Each of fsspec's targets raises what its own library does.
-            reason = " ".join(str(error).split())[:200]
-            raise OutputError(f"cannot write {self.url}/{name}: {reason}") from None
+            raise OutputError(f"cannot write {self.url}/{name}: {_why(error)}") from None
 
     def read(self, name: str) -> bytes:
         """See `Store`."""
@@ -120,7 +119,7 @@ class RemoteStore:
         try:
             data: bytes = fs.cat_file(path)
         except Exception as error:
-            raise OutputError(f"cannot read {self.url}/{name}: {error}") from None
+            raise OutputError(f"cannot read {self.url}/{name}: {_why(error)}") from None
         return data
 
     def sizes(self, names: Sequence[str]) -> list[int | None]:
@@ -131,16 +130,19 @@ class RemoteStore:
         except FileNotFoundError:  # nothing is written yet
             found = {}
         except Exception as error:
-            reason = " ".join(str(error).split())[:200]
-            raise OutputError(
-                f"cannot list {self.url}: {reason}; check the address and your rights"
-            ) from None
+            raise OutputError(f"cannot list {self.url}: {_why(error)}") from None
         sizes = {path.lstrip("/"): int(info["size"]) for path, info in found.items()}
         return [sizes.get(self._at(name)[1].lstrip("/")) for name in names]
 
     def _at(self, name: str) -> tuple[Any, str]:
         fs, root = _file_system(self.url)
         return fs, f"{root.rstrip('/')}/{name}"
+
+
+def _why(error: Exception) -> str:
+    """The system's message for an error, or the name that the target's library gives to it."""
+    name = getattr(error, "strerror", None) or type(error).__name__
+    return f"{name}; check the address and your rights"
 
 
 def _size(path: Path) -> int | None:
@@ -159,9 +161,10 @@ def _file_system(url: str) -> tuple[Any, str]:
 
         fs, root = url_to_fs(url)
     except ImportError as error:
-        raise OutputError(f"{url}: {error}; install it") from None
+        missing = error.name or "fsspec with what it needs for this address"
+        raise OutputError(f"{url}: {missing} is missing; install it") from None
     except Exception as error:
-        raise OutputError(f"{url} cannot be opened: {' '.join(str(error).split())}") from None
+        raise OutputError(f"{url} cannot be opened: {_why(error)}") from None
     return fs, str(root)
 
 

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from drapery.errors import OptionError
+from drapery.model_faults import said_of, wanted
 from drapery.option import shown
 from drapery.toml_text import Place, locate, read_toml
 
@@ -54,7 +55,6 @@ def complaint_of(error: ValidationError, table: type[BaseModel]) -> str:
 
 def _complaint(fault: Any, place: Place, table: type[BaseModel], given: Mapping[str, Any]) -> str:
     name = next((str(part) for part in reversed(place) if isinstance(part, str)), "the file")
-    said = str(fault["msg"])
     if fault["type"] == "extra_forbidden":
         known = ", ".join(each for each in table.model_fields if each not in given)
         return f"{name} is not a field here; use one of: {known}"
@@ -65,7 +65,6 @@ def _complaint(fault: Any, place: Place, table: type[BaseModel], given: Mapping[
     if fault["type"] == "union_tag_invalid":
         allowed = fault["ctx"]["expected_tags"].replace("'", "")
         return f"shape {shown(fault['ctx']['tag'])} is not known; use one of: {allowed}"
-    if fault["type"] in ("value_error", "garment"):
-        return said.removeprefix("Value error, ")
-    remedy = said.removeprefix("Input should ").removeprefix("String should ")
-    return f"{name} {shown(fault['input'])} cannot be used; it should {remedy}"
+    if (said := said_of(fault)) is not None:
+        return said
+    return f"{name} {shown(fault['input'])} cannot be used; it should {wanted(fault)}"

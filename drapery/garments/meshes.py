@@ -50,8 +50,8 @@ def read_stiff_mesh(each: GarmentMesh, folder: Path, texel: float) -> StiffMesh:
         start += len(own)
         try:
             material = _material(part.visual, decoded)
-        except Exception as fault:  # a file may give anything as a colour
-            said = f"mesh {shown(str(each.file), 200)} has a broken material ({fault})"
+        except Exception:  # a file may give anything as a colour
+            said = f"mesh {shown(str(each.file), 200)} has a broken material"
             raise OptionError(f"{said}; export it again") from None
         models.append(Model(make_mesh(own, part.triangles, _drawn_uvs(part)), (material,)))
     return StiffMesh(tuple(models), mesh_collider(placed, faces))

@@ -1,6 +1,5 @@
 """Motions of players as data: key poses, and the poses of all bones between them."""
 
-import json
 from collections.abc import Mapping
 from functools import cache, lru_cache
 from importlib.resources import as_file, files
@@ -15,6 +14,7 @@ from drapery.elementary import sine_of_turns
 from drapery.errors import OptionError
 from drapery.garments.blends import unknown_motion
 from drapery.garments.model import Angle, GarmentTable, Length
+from drapery.json_text import JSONTextError, parse_json
 from drapery.mesh import Array
 from drapery.style.figure import TEXEL, WING_JOINTS, FigurePart, Placed, to_metres
 from drapery.toml_text import read_toml
@@ -103,16 +103,17 @@ def _known() -> dict[str, Motion]:
 def _read_pose(path: Path) -> KeyPose:
     data = read_user_file(path, MAX_BYTES, shorter="a pose is shorter")
     try:
-        return KeyPose.model_validate(json.loads(data.decode("utf-8-sig")))
-    except (ValueError, RecursionError) as error:
-        if isinstance(error, ValidationError):
-            fault = error.errors()[0]
-            name = ".".join(str(part) for part in fault["loc"])
-            bones = ", ".join(KeyPose.model_fields)
-            raise OptionError(
-                f"{path}: {name} cannot be used; give three angles in degrees for some of: {bones}"
-            ) from None
-        raise OptionError(f"{path} is not JSON: {error}; correct it") from None
+        return KeyPose.model_validate(parse_json(data.decode("utf-8-sig")))
+    except ValidationError as error:
+        name = ".".join(str(part) for part in error.errors()[0]["loc"])
+        bones = ", ".join(KeyPose.model_fields)
+        raise OptionError(
+            f"{path}: {name} cannot be used; give three angles in degrees for some of: {bones}"
+        ) from None
+    except UnicodeDecodeError as error:
+        raise OptionError(f"{path}: byte {error.start} is not UTF-8; save it as UTF-8") from None
+    except JSONTextError as error:
+        raise OptionError(f"{path} is not JSON{error}") from None
 
 
 def bone_poses(pose: KeyPose, parts: Mapping[str, FigurePart], grounded: bool) -> dict[str, Placed]:

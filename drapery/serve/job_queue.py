@@ -128,7 +128,7 @@ class JobQueue(Generic[T]):
                 logging.getLogger(__name__).warning(
                     "the workers ended (%s); they are started again in %.1f s", error, pause
                 )
-                self._give_up(f"the workers ended: {error}")
+                self._give_up("the workers ended; ask again")
                 self._closing.wait(pause)
         self._give_up("the service is closing")
 
@@ -165,8 +165,9 @@ class JobQueue(Generic[T]):
         value: T | Unavailable
         try:
             value = self._finish(result)
-        except Exception as error:
-            value = Unavailable(f"the result is lost: {error}")
+        except Exception:
+            logging.getLogger(__name__).exception("a result is lost")
+            value = Unavailable("the result is lost; ask again")
         with self._changed:
             pending = self._pending.pop(result.job.key, None)
         if pending is not None:

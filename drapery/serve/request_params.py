@@ -196,8 +196,10 @@ def read_request(
         settings, banner = replace(config.base, **chosen), _banner(values, config.limits)
         _check_kind(banner, settings)
         return _request(values, banner, settings, ending, config.limits)
-    except (DraperyError, ValueError) as error:
+    except DraperyError as error:
         return [one_line(str(error))]
+    except ValueError:
+        return ["a value of the query cannot be used; correct it"]
 
 
 def _faults(query: Sequence[tuple[str, str]], ending: str, subject: Subject) -> list[str]:

@@ -27,6 +27,7 @@ from drapery.studio.snippets import (
     subject_of,
 )
 from drapery.studio.warning_log import collected_warnings
+from drapery.user_files import reason
 
 MAX_PIXELS = 1 << 31
 """The most pixels of all frames together: 512 x 512 for six minutes at 20 frames/s."""
@@ -169,8 +170,10 @@ class Export:
             self.state = "stopped"
         except DraperyError as error:
             self.state, self.fault = "failed", str(error)
-        except (OSError, MemoryError) as error:
-            self.state, self.fault = "failed", f"the export failed: {error or 'out of memory'}"
+        except MemoryError:
+            self.state, self.fault = "failed", "the export failed: it needs too much memory"
+        except OSError as error:
+            self.state, self.fault = "failed", f"the export failed: {reason(error)}"
         except Exception as error:
             # This is an error in the program: show one line to the user, log the traceback.
             LOG.exception("the export of %s failed", self.name)

@@ -161,5 +161,7 @@ def _imported(tree: object, at: str) -> Design:
         if not isinstance(tags, list) or not isinstance(picture, str):
             raise DesignError("tags must be a list, thumbnail a text; export the library again")
         return checked(Design(sketch, settings, tuple(tags), b64decode(picture, validate=True)))
-    except (DraperyError, ValueError) as error:
+    except DraperyError as error:
         raise DesignError(f"{at}: {error}") from None
+    except ValueError:
+        raise DesignError(f"{at}: its thumbnail is not base64; export the library again") from None

@@ -82,7 +82,7 @@ def _loaded(name: str, point: "EntryPoint") -> Style:
         style = point.load()
     except Exception as fault:  # a package may raise anything while it is imported
         raise OptionError(
-            f"style {name!r} of {point.value} cannot be loaded ({fault});"
+            f"style {name!r} of {point.value} cannot be loaded ({type(fault).__name__});"
             " repair or remove the package that adds it"
         ) from fault
     if not isinstance(style, Style):

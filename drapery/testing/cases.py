@@ -17,6 +17,7 @@ or elytra has a `texture` in place of a design. With `seconds` or `fps` the pict
 of `drapery animate`.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError
 
 from drapery.comparison import EXACT, LIMIT_OPTIONS, Tolerance, read_tolerance
 from drapery.errors import OptionError
+from drapery.model_faults import said_of, wanted
 from drapery.option import shown
 from drapery.options import NAMES, check_options, one_line, unknown_names
 from drapery.settings import LOOP_OPTIONS, Settings
@@ -140,7 +142,7 @@ def _load(path: Path) -> dict[str, Any]:
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise OptionError(f"{path}: {one_line(str(error))}; save it as UTF-8") from None
+        raise OptionError(f"{path}: byte {error.start} is not UTF-8; save it as UTF-8") from None
     is_yaml = path.suffix.lower() in (".yaml", ".yml")
     loaded = load_yaml(text, path) if is_yaml else parse_toml(text, path)
     if not isinstance(loaded, dict):
@@ -162,4 +164,12 @@ def _first_fault(error: ValidationError) -> str:
     first = faults[0]
     place = ".".join(str(part) for part in first["loc"])
     more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
-    return f"{place}: {one_line(first['msg'])}{more}"
+    return f"{place}: {_complaint(first)}{more}"
+
+
+def _complaint(fault: Mapping[str, Any]) -> str:
+    if fault["type"] == "missing":
+        return "it is missing; add it"
+    if fault["type"] == "extra_forbidden":
+        return "it is not a key here; leave it out"
+    return said_of(fault) or f"{shown(fault['input'])} cannot be used; it should {wanted(fault)}"

@@ -12,7 +12,7 @@ from drapery.testing.explain import LayerNote, explain_change
 from drapery.testing.failures import GoldenUpdate, failure_id, keep_failure
 from drapery.testing.golden import GoldenError, decode, encode, fingerprint
 from drapery.testing.naming import approved_paths, variant_path
-from drapery.user_files import open_user_file
+from drapery.user_files import open_user_file, reason
 
 Notes = Callable[[], list[LayerNote] | None]
 """Makes the notes of a design's layers, which only a failure and an update need."""
@@ -60,8 +60,8 @@ def check_golden(check: GoldenCheck, picture: Picture, notes: Notes) -> GoldenRe
         try:
             approved = _compared(check, path, picture)
         except OSError as error:
-            reason = error.strerror or str(error)
-            return GoldenResult(f"{path}: {reason}; make the file readable and writable")
+            said = f"{path}: {reason(error)}; make the file readable and writable"
+            return GoldenResult(said)
         if approved.agrees:
             return GoldenResult()
         known.append(approved)

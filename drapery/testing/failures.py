@@ -134,8 +134,8 @@ def failures_in(folder: Path) -> list[FailedPicture]:
         try:
             facts = json.loads(path.read_text(encoding="utf-8"))
             words = {key: str(facts[key]) for key in ("test", "name", "line", "golden", "was")}
-        except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-            raise OutputError(f"{path} cannot be read ({error}); run the checks again") from None
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+            raise OutputError(f"{path} cannot be read; run the checks again") from None
         found.append(FailedPicture(path.name.removesuffix(_FACTS), folder=folder, **words))
     return found
 

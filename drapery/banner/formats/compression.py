@@ -48,9 +48,9 @@ def _pieces(data: bytes, where: str) -> Iterator[bytes]:
             start += _FEED
         try:
             piece = stream.decompress(waiting, _PIECE)
-        except zlib.error as error:
+        except zlib.error:
             raise DesignError(
-                f"{where}: broken compressed data after byte {size} unpacked ({error}); {_REMEDY}"
+                f"{where}: broken compressed data after byte {size} unpacked; {_REMEDY}"
             ) from None
         waiting = stream.unconsumed_tail
         size += len(piece)

@@ -54,6 +54,6 @@ def _decompress(data: bytes, size: int, where: str) -> bytes:
         ) from None
     try:
         piece: bytes = block.decompress(data, uncompressed_size=size)
-    except block.LZ4BlockError as error:
-        raise DesignError(f"{where}: broken LZ4 data ({error}); {_REMEDY}") from None
+    except block.LZ4BlockError:
+        raise DesignError(f"{where}: broken LZ4 data; {_REMEDY}") from None
     return piece

@@ -47,8 +47,8 @@ def _regex(text: Any, name: str) -> re.Pattern[str] | None:
         )
     try:
         return re.compile(text)
-    except (re.error, RecursionError, OverflowError) as error:
-        raise PackError(f"{name} {text!r} is not a regular expression: {error}") from None
+    except (re.error, RecursionError, OverflowError):
+        raise PackError(f"{name} {text!r} is not a regular expression: correct it") from None
 
 
 def _is_cheap(text: str) -> bool:

@@ -3,7 +3,6 @@
 `drapery.banner.packs.versions` lists the formats.
 """
 
-import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from drapery.banner.names import shown
 from drapery.banner.packs.filters import IdFilter, parse_filter
 from drapery.banner.packs.versions import LAST_WITHOUT_MINOR, NEWEST_DATA_FORMAT, NEWEST_FORMAT
 from drapery.errors import PackError
+from drapery.json_text import JSONTextError, parse_json
 
 Format = tuple[float, float]
 """Major and minor format number."""
@@ -94,14 +94,11 @@ class PackMeta:
 def read_json(data: bytes, name: str) -> Any:
     """Parse a JSON file of a pack. Raises PackError with its name, line and column."""
     try:
-        return json.loads(data.decode("utf-8-sig"), strict=False)
+        return parse_json(data.decode("utf-8-sig"), strict=False)
     except UnicodeDecodeError as error:
         raise PackError(f"{name}: byte {error.start} is not UTF-8: save it as UTF-8") from None
-    except json.JSONDecodeError as error:
-        place = f"line {error.lineno}, column {error.colno}"
-        raise PackError(f"{name}, {place}: {error.msg}: correct the JSON") from None
-    except (RecursionError, ValueError):
-        raise PackError(f"{name} is nested too deep or has a number with too many digits") from None
+    except JSONTextError as error:
+        raise PackError(f"{name}{error}") from None
 
 
 def parse_meta(data: bytes, name: str) -> PackMeta:

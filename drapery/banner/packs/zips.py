@@ -48,9 +48,7 @@ class ZipSource:
                 # The stated size may be wrong; never more than the limit is unpacked.
                 return within(file.read(limit + 1), limit, place)
         except _zip_faults() as error:
-            raise PackError(
-                f"{place} is damaged ({reason(error)}): download the zip again"
-            ) from None
+            raise PackError(f"{place} {_fault(error)}: download the zip again") from None
 
     def files(self, folder: str) -> tuple[str, ...]:
         """See `PackSource`."""
@@ -71,6 +69,12 @@ def _zip_faults() -> tuple[type[Exception], ...]:
     return BadZipFile, LargeZipFile, OSError, *wrong
 
 
+def _fault(error: Exception) -> str:
+    if isinstance(error, OSError):
+        return f"cannot be read ({reason(error)})"
+    return "is locked by a password" if isinstance(error, RuntimeError) else "is damaged"
+
+
 def open_zip(path: Path, roots: tuple[str, ...] = ROOTS) -> ZipSource:
     """The pack in a zip or jar, also under one top folder. Raises PackError, OSError.
 
@@ -82,9 +86,7 @@ def open_zip(path: Path, roots: tuple[str, ...] = ROOTS) -> ZipSource:
     try:
         archive = ZipFile(path)
     except _zip_faults() as error:
-        raise PackError(
-            f"pack {path} is a damaged zip ({reason(error)}): download it again"
-        ) from None
+        raise PackError(f"pack {path} {_fault(error)}: download it again") from None
     try:
         return _indexed(archive, str(path), roots)
     except PackError:

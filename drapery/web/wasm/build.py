@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drapery.errors import DraperyError
+from drapery.user_files import reason
 from drapery.web.wasm.image import WasmBuildError
 from drapery.web.wasm.module import module_places
 
@@ -62,8 +63,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for other in () if given.cache else path.parent.glob("kernels-*.wasm"):
             if other != path:
                 other.unlink(missing_ok=True)  # it belongs to older sources
-    except (DraperyError, OSError) as error:
+    except DraperyError as error:
         print(f"error: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"error: {path}: {reason(error)}", file=sys.stderr)
         return 1
     print(f"{path}: {path.stat().st_size} bytes")
     return 0
