@@ -201,7 +201,8 @@ def _build_up(
             for count, place in zip(counts, places, strict=True)
         ]
         pictures = first.with_layers(counts[0]), other.with_layers(counts[1])
-        difference = measure_pictures(*map(as_picture, pictures), tolerance)
+        old, new = map(as_picture, pictures)
+        difference = measure_pictures(old, new, tolerance)
         yield BuildUpStep(_names(first, other, places), *pictures, difference)
 
 
