@@ -1,6 +1,6 @@
 """Buttons and switches of the page: plain elements, each with its label."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from functools import partial
 from typing import Any, TypeVar
 
@@ -79,6 +79,32 @@ def versus_slider(left: str, right: str, title: str) -> None:
         slider = ui.element("input").props("type=range min=0 max=100 value=50").classes("slider")
         label = translated("Left: your design now. Right: {title}").format(title=title)
         slider.props["aria-label"] = label
+
+
+class KeptElements:
+    """The children of an element, by keys that say all that each of them shows.
+
+    A child whose key is still wanted stays, because a click on one that is replaced is lost.
+    """
+
+    def __init__(self, parent: Element) -> None:
+        self._parent = parent
+        self._children: dict[Hashable, Element] = {}
+
+    def show(self, wanted: Mapping[Hashable, Callable[[], Element]]) -> None:
+        """Show children in this order. wanted: what makes each of them, by its key."""
+        before, self._children = self._children, {}
+        for key, make in wanted.items():
+            child = before.pop(key, None)
+            if child is None:
+                with self._parent:
+                    child = make()
+            self._children[key] = child
+        for child in before.values():
+            child.delete()
+        for place, child in enumerate(self._children.values()):
+            if self._parent.default_slot.children[place] is not child:
+                child.move(target_index=place)
 
 
 class SegmentedControl:

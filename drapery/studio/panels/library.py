@@ -16,7 +16,7 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import MAX_TITLE, banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, text_element, translated_text
+from drapery.studio.widgets import KeptElements, button, text_element, translated_text
 
 if TYPE_CHECKING:
     from drapery.studio.library import Library
@@ -47,8 +47,6 @@ class LibraryPanel:
         self._limit = PAGE
         # Searches started so far.
         self._asked = 0
-        # The designs that are listed, with their cards, by their numbers.
-        self._cards: dict[int, tuple[Design, Element]] = {}
         self._fields = Fields(session)
         self._form()
         self._search()
@@ -56,6 +54,7 @@ class LibraryPanel:
         self._undo.set_visibility(False)
         self._found = ui.element("ul").classes("designs")
         self._found.props["aria-label"] = translated("Designs")
+        self._cards = KeptElements(self._found)
         self._count = text_element("", "p").classes("hint").props("role=status")
         self._more = button("More designs", self._show_more, text="More")
         self._more.set_visibility(False)
@@ -161,38 +160,28 @@ class LibraryPanel:
         self._more.set_visibility(count > len(designs))
 
     def _show(self, designs: "list[Design]") -> None:
-        # Cards that are already there stay, because a click on a replaced card is lost.
-        before, self._cards = self._cards, {}
-        for design in designs:
-            same, card = before.get(design.number, (None, None))
-            if card is not None and same == design:
-                del before[design.number]
-            else:
-                with self._found, ui.element("li").classes("design") as card:
-                    card.props(f"data-design={design.number}")
-                    self._card(design)
-            self._cards[design.number] = design, card
-        for _, card in before.values():
-            card.delete()
-        for place, (_, card) in enumerate(self._cards.values()):
-            if self._found.default_slot.children[place] is not card:
-                card.move(target_index=place)
+        self._cards.show(
+            {(each.number, each.changed): partial(self._card, each) for each in designs}
+        )
 
-    def _card(self, design: "Design") -> None:
+    def _card(self, design: "Design") -> Element:
         name = design.title or translated("Untitled")
-        opened = ui.element("button").classes("design-open").props("type=button")
         words = translated("Open {name}").format(name=name)
-        opened.props.update({"aria-label": words, "title": words})
-        with opened.on("click", lambda: self._open_design(design.number)):
-            picture = ui.element("img").props('alt=""')
-            picture.props["src"] = f"data:image/png;base64,{b64encode(design.thumbnail).decode()}"
-        text_element(name).classes("design-title").props.update({"title": name})
-        text_element(", ".join(design.tags)).classes("hint design-tags")
         rename = translated("Rename or tag {name}").format(name=name)
         delete = translated("Delete {name}").format(name=name)
-        with ui.element("div").classes("design-acts"):
-            button(rename, lambda: self._edit(design), icon="edit").classes("small")
-            button(delete, lambda: self._remove(design.number), icon="delete").classes("small")
+        with ui.element("li").classes("design").props(f"data-design={design.number}") as card:
+            opened = ui.element("button").classes("design-open").props("type=button")
+            opened.props.update({"aria-label": words, "title": words})
+            with opened.on("click", lambda: self._open_design(design.number)):
+                picture = ui.element("img").props('alt=""')
+                data = b64encode(design.thumbnail).decode()
+                picture.props["src"] = f"data:image/png;base64,{data}"
+            text_element(name).classes("design-title").props.update({"title": name})
+            text_element(", ".join(design.tags)).classes("hint design-tags")
+            with ui.element("div").classes("design-acts"):
+                button(rename, lambda: self._edit(design), icon="edit").classes("small")
+                button(delete, lambda: self._remove(design.number), icon="delete").classes("small")
+        return card
 
     async def _save_over(self) -> None:
         await self._store(self._open)

@@ -1,8 +1,10 @@
 """Resource packs: add them, order them, switch them on or off, compare them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
+from functools import partial
 
 from nicegui import Client, background_tasks, run, ui
+from nicegui.element import Element
 
 from drapery import DraperyError
 from drapery.packs import LAST_MASK_FORMAT, PACK_FORMATS
@@ -14,7 +16,14 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, on, text_element, translated_text, versus_slider
+from drapery.studio.widgets import (
+    KeptElements,
+    button,
+    on,
+    text_element,
+    translated_text,
+    versus_slider,
+)
 
 NO_PACK = "none"
 OWN_ART = "Drapery's own art"
@@ -56,18 +65,28 @@ def build(session: Session) -> None:
 def _list(session: Session) -> None:
     pack_store = session.pack_store
 
-    @ui.refreshable
-    def entries() -> None:
-        with ui.element("ol").classes("packs") as found:
-            found.props["aria-label"] = translated("Packs, the one that wins first")
-            for entry in reversed(pack_store.entries):
-                with ui.element("li").classes("pack").props(f"data-pack={entry.number}"):
-                    _row(session, entry)
-            with ui.element("li").classes("pack"):
-                _name(translated(OWN_ART), "", "below all others")
+    def row(entry: PackEntry) -> Element:
+        with ui.element("li").classes("pack").props(f"data-pack={entry.number}") as found:
+            _row(session, entry)
+        return found
 
-    entries()
-    session.listen(entries.refresh, "packs")
+    def own_art() -> Element:
+        with ui.element("li").classes("pack") as found:
+            _name(translated(OWN_ART), "", "below all others")
+        return found
+
+    def show() -> None:
+        entries: dict[Hashable, Callable[[], Element]] = {
+            entry: partial(row, entry) for entry in reversed(pack_store.entries)
+        }
+        with client:  # says the language
+            kept.show(entries | {OWN_ART: own_art})
+
+    client = ui.context.client
+    listed = ui.element("ol").classes("packs")
+    listed.props["aria-label"] = translated("Packs, the one that wins first")
+    kept = KeptElements(listed)
+    session.follow(show, "packs")
 
 
 def _name(title: str, name: str, summary: str, warnings: tuple[str, ...] = ()) -> None:
