@@ -57,6 +57,16 @@ def test_undo_packs_and_the_librarys_entry_are_there_again(pack: Path, is_gone: 
     assert not folder.exists()
 
 
+def test_a_closed_tab_makes_no_new_folder() -> None:
+    """A file that is read in a thread may be finished after its tab; nothing would remove it."""
+    sessions = Sessions()
+    session = sessions.open()
+    session.selection.press_pattern("creeper")
+    sessions.keep(session)
+    with pytest.raises(DesignError, match="the page is gone"):
+        print(session.folder)
+
+
 def test_a_design_of_the_address_is_the_last_step() -> None:
     sessions = Sessions()
     first = sessions.open()

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
-from drapery import Settings
+from drapery import DesignError, Settings
 from drapery.packs import Packs, open_packs
 from drapery.studio.history import History
 from drapery.studio.sketch import MAX_TITLE, Sketch
@@ -53,7 +53,12 @@ class Document:
 
     @property
     def folder(self) -> Path:
-        """The tab's own folder, made at first use and removed when the tab closes."""
+        """The tab's own folder, made at first use and removed when the tab closes.
+
+        Raises DesignError if the tab is closed, since nothing would remove a new folder.
+        """
+        if self._folder is None and self.closed:
+            raise DesignError("the page is gone; open it again")
         if self._folder is None:
             self._folder = Path(tempfile.mkdtemp(prefix="drapery-studio-"))
         return self._folder
