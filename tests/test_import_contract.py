@@ -221,6 +221,25 @@ def test_no_module_has_the_name_of_its_function() -> None:
         assert own not in functions, f"{name} holds a function of its own name"
 
 
+@pytest.mark.parametrize("name", sorted(modules()))
+def test_an_import_changes_no_other_module(name: str) -> None:
+    """Kernels that were made after such a change wrote outside of memory, in other tests."""
+    tree = ast.parse(modules()[name].read_text(encoding="utf-8"))
+    imported = {
+        alias.asname or alias.name.partition(".")[0]
+        for node in tree.body
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        for alias in node.names
+    }
+    for node in tree.body:
+        if isinstance(node, ast.Assign | ast.AugAssign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            for target in targets:
+                if isinstance(target, ast.Attribute | ast.Subscript):
+                    named = {part.id for part in ast.walk(target) if isinstance(part, ast.Name)}
+                    assert not named & imported, f"{name} line {node.lineno}: {ast.unparse(node)}"
+
+
 def test_class_names_are_unique() -> None:
     places: dict[str, list[str]] = {}
     for folder in FOLDERS.values():

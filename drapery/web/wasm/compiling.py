@@ -6,22 +6,24 @@ from typing import Any
 
 from drapery import jit, jit_cache
 
-# No kernel is imported yet. Registers of WebAssembly have 16 bytes; and Python does not call the
-# code, which is not optimised, so it needs no wrappers and must not be kept.
-jit.REGISTER = 16
-jit.OUTER = jit.INNER
-vars(jit_cache)["cache_on_disk"] = lambda dispatcher: dispatcher
+if __name__ == "__main__":
+    # No kernel is imported yet. Registers of WebAssembly have 16 bytes; and Python does not call
+    # the code, which is not optimised, so it needs no wrappers and must not be kept. Where Python
+    # does call such code, it writes anywhere in memory.
+    jit.REGISTER = 16
+    jit.OUTER = jit.INNER
+    vars(jit_cache)["cache_on_disk"] = lambda dispatcher: dispatcher
 
-from drapery import Banner, Settings  # noqa: E402
-from drapery.garments import find_garment  # noqa: E402
-from drapery.packs import open_packs  # noqa: E402
-from drapery.scenes import live_garment, live_panels, played_garment  # noqa: E402
-from drapery.style import body_of  # noqa: E402
-from drapery.web.wasm.build import METHODS  # noqa: E402
-from drapery.web.wasm.compiler import ExportedKernel, compile_module  # noqa: E402
-from drapery.web.wasm.image import types_of  # noqa: E402
-from drapery.web.wasm.module import sources_hash  # noqa: E402
-from drapery.web.wasm.plan import LANES, types_hash  # noqa: E402
+from drapery import Banner, Settings
+from drapery.garments import find_garment
+from drapery.packs import open_packs
+from drapery.scenes import live_garment, live_panels, played_garment
+from drapery.style import body_of
+from drapery.web.wasm.build import METHODS
+from drapery.web.wasm.compiler import ExportedKernel, compile_module
+from drapery.web.wasm.image import types_of
+from drapery.web.wasm.module import sources_hash
+from drapery.web.wasm.plan import LANES, types_hash
 
 
 def main(path: Path, methods: list[str]) -> None:
