@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from drapery.render.buffers import Buffers
     from drapery.render.camera import Camera, clip_matrix, projection_matrix, view_matrix
     from drapery.render.contact import contact_sheet, contact_table, on_checker, stack_frames
+    from drapery.render.contact_images import checkered, contact_strips
     from drapery.render.debug import (
         at_particles,
         edges_model,
@@ -44,7 +45,8 @@ if TYPE_CHECKING:
         save_frame,
     )
     from drapery.render.encode.output import check_writable, make_folder, replacing
-    from drapery.render.encode.png import apng_bytes, png_bytes, quick_png_bytes
+    from drapery.render.encode.png import apng_bytes, png_bytes
+    from drapery.render.encode.quick_png import quick_png_bytes, quick_png_of_strips
     from drapery.render.encode.webp import webp_bytes
     from drapery.render.export import MODEL_ENDINGS, check_model_target, save_model
     from drapery.render.flatten import composite_layers
@@ -95,10 +97,12 @@ __all__ = [
     "check_model_target",
     "check_still_target",
     "check_writable",
+    "checkered",
     "clip_matrix",
     "composite_layers",
     "contact_shadow",
     "contact_sheet",
+    "contact_strips",
     "contact_table",
     "dot_model",
     "draw_buffers",
@@ -123,6 +127,7 @@ __all__ = [
     "png_bytes",
     "projection_matrix",
     "quick_png_bytes",
+    "quick_png_of_strips",
     "replacing",
     "save_animation",
     "save_frame",
@@ -145,6 +150,7 @@ __getattr__, __dir__ = lazy_names(
         "render.buffers": ("Buffers",),
         "render.camera": ("Camera", "clip_matrix", "projection_matrix", "view_matrix"),
         "render.contact": ("contact_sheet", "contact_table", "on_checker", "stack_frames"),
+        "render.contact_images": ("checkered", "contact_strips"),
         "render.debug": (
             "at_particles",
             "edges_model",
@@ -164,7 +170,8 @@ __getattr__, __dir__ = lazy_names(
             "save_frame",
         ),
         "render.encode.output": ("check_writable", "make_folder", "replacing"),
-        "render.encode.png": ("apng_bytes", "png_bytes", "quick_png_bytes"),
+        "render.encode.png": ("apng_bytes", "png_bytes"),
+        "render.encode.quick_png": ("quick_png_bytes", "quick_png_of_strips"),
         "render.encode.webp": ("webp_bytes",),
         "render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
         "render.flatten": ("composite_layers",),

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -9,8 +10,16 @@ import pytest
 from conftest import Run
 from PIL import Image
 
-from drapery.comparison import Tolerance, measure_files, measure_pictures, read_picture
+from drapery.comparison import (
+    Tolerance,
+    measure_files,
+    measure_pictures,
+    read_picture,
+    read_stills,
+    side_by_side,
+)
 from drapery.errors import OptionError
+from drapery.render import quick_png_of_strips
 
 
 def saved(pixels: np.ndarray, path: Path) -> Path:
@@ -24,8 +33,8 @@ def changed(rng: np.random.Generator, pixels: np.ndarray) -> np.ndarray:
     return np.where(some, pixels + rng.integers(0, 9, pixels.shape), pixels).astype(np.uint8)
 
 
-@pytest.mark.parametrize("seed", range(24))
-def test_files_have_the_figures_of_arrays(tmp_path: Path, seed: int) -> None:
+def files(folder: Path, seed: int) -> tuple[Path, Path]:
+    """Two files of pictures that differ in few channels, many or none, some of them transparent."""
     rng = np.random.default_rng(seed)
     height, width = rng.integers(1, (700, 40))
     old = rng.integers(0, 256, (height, width, 4), np.uint8)
@@ -34,12 +43,29 @@ def test_files_have_the_figures_of_arrays(tmp_path: Path, seed: int) -> None:
     new = changed(rng, old)
     if seed % 4 == 0:
         old[..., 3] = new[..., 3] = 255
-    a = saved(old, tmp_path / "a.png")
-    b = saved(new[..., :3] if seed % 8 == 0 else new, tmp_path / "b.png")
+    a = saved(old, folder / "a.png")
+    return a, saved(new[..., :3] if seed % 8 == 0 else new, folder / "b.png")
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_files_have_the_figures_of_arrays(tmp_path: Path, seed: int) -> None:
+    a, b = files(tmp_path, seed)
     tolerance = Tolerance(channel=seed % 5, pixels=seed, ratio=0.01 * (seed % 2))
     pictures = read_picture(a), read_picture(b)
     assert measure_files(a, b, tolerance) == measure_pictures(*pictures, tolerance)
     assert measure_files(a, a, tolerance) == measure_pictures(pictures[0], pictures[0], tolerance)
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_the_picture_of_files_is_that_of_arrays(tmp_path: Path, seed: int) -> None:
+    a, b = files(tmp_path, seed)
+    for pair in ((a, b), (a, a)):
+        stills = read_stills(*pair)
+        assert stills is not None
+        data = quick_png_of_strips(stills.sheet_strips(("one", "the other_of_two")))
+        frames = [read_picture(each).frames[0] for each in pair]
+        sheet = side_by_side(frames[0], frames[1], ("one", "the other_of_two")).pixels
+        assert np.array_equal(np.asarray(Image.open(BytesIO(data)).convert("RGBA")), sheet)
 
 
 def test_files_of_other_kinds_are_left_to_arrays(tmp_path: Path) -> None:
@@ -79,6 +105,22 @@ def test_the_command_says_the_same_without_and_with_options(
     quick = drapery("compare", a, b)
     assert quick == drapery("compare", a, b, "--tolerance", "0")
     assert quick[0] == (1 if step else 0)
+    written = [tmp_path / "quick.png", tmp_path / "usual.png"]
+    assert drapery("compare", a, b, "-o", written[0]) == quick
+    assert drapery("compare", a, b, "--tolerance", "0", "-o", written[1]) == quick
+    pictures = [read_picture(each).frames[0] for each in written]
+    assert np.array_equal(*pictures)
+
+
+@pytest.mark.parametrize("target", ["missing/c.png", "folder.png", "c.txt"])
+def test_a_target_that_cannot_be_written_is_refused_alike(
+    drapery: Run, tmp_path: Path, target: str
+) -> None:
+    (tmp_path / "folder.png").mkdir()
+    a = saved(np.full((9, 8, 4), 90, np.uint8), tmp_path / "a.png")
+    path = tmp_path / target
+    quick = drapery("compare", a, a, "-o", path)
+    assert quick[0] == 2 and quick == drapery("compare", a, a, "--tolerance", "0", "-o", path)
 
 
 def test_two_pictures_are_compared_without_numpy_and_typer(tmp_path: Path) -> None:
@@ -91,5 +133,6 @@ def test_two_pictures_are_compared_without_numpy_and_typer(tmp_path: Path) -> No
         "print(code, sorted(heavy & set(sys.modules)))"
     )
     words = [sys.executable, "-c", program, "compare", str(a), str(b)]
-    done = subprocess.run(words, check=True, capture_output=True, text=True)
-    assert done.stdout.splitlines()[-1] == "1 []"
+    for more in ([], ["-o", str(tmp_path / "c.png")]):
+        done = subprocess.run([*words, *more], check=True, capture_output=True, text=True)
+        assert done.stdout.splitlines()[-1] == "1 []"

@@ -122,6 +122,8 @@ def _check_target(target: Path) -> None:
 
 
 def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, float]]) -> None:
+    from PIL import Image
+
     from drapery.comparison import html_report, pair_entry, pair_facts, pair_sheet, write_text
     from drapery.render import Animation, quick_png_bytes, replacing, stack_frames
 
@@ -129,7 +131,7 @@ def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, f
     if ending == ".png":
         sheet = stack_frames([pair_sheet(pair) for pair in pairs])
         with replacing(target) as beside:
-            beside.write_bytes(quick_png_bytes(sheet.pixels))
+            beside.write_bytes(quick_png_bytes(Image.fromarray(sheet.pixels)))
     elif ending == ".gif":
         Animation(_flicker(pairs), 2.0).save(target)
     elif ending == ".html":

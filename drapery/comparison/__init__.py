@@ -40,7 +40,6 @@ if TYPE_CHECKING:
         pair_entry,
         pair_facts,
         pair_sheet,
-        short_labels,
     )
     from drapery.comparison.panels import difference_panel, joined_panels, side_by_side
     from drapery.comparison.picture import (
@@ -56,10 +55,10 @@ if TYPE_CHECKING:
         html_report,
         write_text,
     )
-    from drapery.comparison.stills import measure_files
+    from drapery.comparison.stills import StillPair, measure_files, read_stills
     from drapery.comparison.tolerance import EXACT, Tolerance
     from drapery.comparison.variants import Variant, draw_variants, is_pack, is_picture
-    from drapery.comparison.words import compared_words, difference_words
+    from drapery.comparison.words import compared_words, difference_words, short_labels
 
 __all__ = [
     "EXACT",
@@ -73,6 +72,7 @@ __all__ = [
     "FolderFiles",
     "Picture",
     "ReportEntry",
+    "StillPair",
     "Tolerance",
     "Variant",
     "align",
@@ -107,6 +107,7 @@ __all__ = [
     "pair_facts",
     "pair_sheet",
     "read_picture",
+    "read_stills",
     "read_tolerance",
     "seen",
     "short_labels",
@@ -147,7 +148,6 @@ __getattr__, __dir__ = lazy_names(
             "pair_entry",
             "pair_facts",
             "pair_sheet",
-            "short_labels",
         ),
         "comparison.panels": ("difference_panel", "joined_panels", "side_by_side"),
         "comparison.picture": (
@@ -163,9 +163,9 @@ __getattr__, __dir__ = lazy_names(
             "html_report",
             "write_text",
         ),
-        "comparison.stills": ("measure_files",),
+        "comparison.stills": ("StillPair", "measure_files", "read_stills"),
         "comparison.tolerance": ("EXACT", "Tolerance"),
         "comparison.variants": ("Variant", "draw_variants", "is_pack", "is_picture"),
-        "comparison.words": ("compared_words", "difference_words"),
+        "comparison.words": ("compared_words", "difference_words", "short_labels"),
     },
 )

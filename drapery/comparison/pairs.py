@@ -12,7 +12,7 @@ from drapery.comparison.picture import as_picture
 from drapery.comparison.report import ReportEntry, data_address
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.comparison.variants import Variant, variant_of
-from drapery.comparison.words import compared_words
+from drapery.comparison.words import compared_words, short_labels
 from drapery.errors import OptionError
 from drapery.render import Frame, contact_sheet
 from drapery.settings import Options, Settings
@@ -231,17 +231,6 @@ def pair_sheet(pair: Comparison) -> Frame:
     ]
     labels = short_labels(pair.first.label, pair.other.label)
     return side_by_side(frames[0], frames[1], labels, tolerance=pair.tolerance)
-
-
-def short_labels(a: str, b: str, length: int = 40) -> tuple[str, str]:
-    """Two labels of at most so many characters, cut so that what differs is seen."""
-    if max(len(a), len(b)) <= length:
-        return a, b
-    common = next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), 0)
-    start = max(0, common - length // 4)
-    cut = [("…" if start else "") + label[start:] for label in (a, b)]
-    first, second = (each if len(each) <= length else each[: length - 1] + "…" for each in cut)
-    return first, second
 
 
 def build_up_sheet(pair: Comparison) -> Frame | None:

@@ -4,6 +4,8 @@ The import of numpy takes longer than all else in the comparison of two small pi
 as arrays take the memory of two more. The figures are those of `measure`.
 """
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING
@@ -12,6 +14,7 @@ from warnings import catch_warnings
 from drapery.comparison.difference import Difference, box_around
 from drapery.comparison.files import opened, picture_bytes
 from drapery.comparison.limits import Box
+from drapery.comparison.painting import GAIN, LEAST, MOST, difference_image, shown_scale
 from drapery.comparison.tolerance import EXACT, Tolerance
 
 if TYPE_CHECKING:
@@ -23,20 +26,57 @@ _SIZE, _KIND = slice(16, 24), slice(24, 29)
 """Where in a PNG file the size of the picture and the kind of its pixels are."""
 _KINDS = (b"\x08\x02\0\0\0", b"\x08\x06\0\0\0")
 """8 bits a channel of colour, without and with alpha, and not interlaced."""
+_STRENGTH = [0, *(min(max(LEAST, GAIN * error), MOST) for error in range(1, 256))]
+"""How strongly an error is shown."""
 _CLEAR = [255, *[0] * 255]
 """A table that makes white what is fully transparent, and all else black."""
 
 
-def measure_files(expected: Path, actual: Path, tolerance: Tolerance = EXACT) -> Difference | None:
-    """Measure a picture file against the expected one.
+@dataclass(frozen=True, eq=False)
+class StillPair:
+    """Two pictures of one size and one mode, RGB or RGBA; one and the same for equal files."""
+
+    old: "Image"
+    new: "Image"
+
+    def measure(self, tolerance: Tolerance = EXACT) -> Difference:
+        """The figures of `measure`. tolerance: of channels and pixels alone."""
+        return _compared(self.old, self.new, tolerance)
+
+    def sheet_strips(self, labels: tuple[str, str]) -> "Iterator[Image]":
+        """The sheet of `side_by_side` in strips from its top to its bottom, mode RGB."""
+        from drapery.render import contact_strips
+
+        width, height = self.old.size
+        scale = shown_scale(width, height)
+        size = width * scale, height * scale
+        return contact_strips((*labels, "difference"), size, self._panel_strips(scale))
+
+    def _panel_strips(self, scale: int) -> "Iterator[list[Image]]":
+        """Strips of both pictures and of their difference, enlarged."""
+        from PIL import Image
+
+        from drapery.render import checkered
+
+        nearest = Image.Resampling.NEAREST
+        for area in _strips(self.old.size):
+            old, new = self.old.crop(area), self.new.crop(area)
+            size = scale * old.width, scale * old.height
+            # The squares of the checker keep their size.
+            parts = [checkered(each.resize(size, nearest)) for each in (old, new)]
+            shown = checkered(old)
+            strength = _lightest(_change(old, new)[0]).point(_STRENGTH)
+            parts.append(difference_image(shown, strength).resize(size, nearest))
+            yield parts
+
+
+def read_stills(expected: Path, actual: Path) -> StillPair | None:
+    """Two files of pictures.
 
     None for what only `measure_pictures` compares: other files than PNG stills of colours with 8
-    bits a channel, two sizes, and tolerances of more than channels and pixels. Raises OptionError
-    for a file that cannot be read or is broken.
+    bits a channel, and two sizes. Raises OptionError for a file that cannot be read or is broken.
     """
     data = picture_bytes(expected), picture_bytes(actual)
-    if not tolerance.limits().keys() <= {"tolerance", "pixels", "ratio"}:
-        return None
     if not all(each[:8] == b"\x89PNG\r\n\x1a\n" and each[_KIND] in _KINDS for each in data):
         return None
     if data[0][_SIZE] != data[1][_SIZE]:
@@ -44,7 +84,22 @@ def measure_files(expected: Path, actual: Path, tolerance: Tolerance = EXACT) ->
     pictures = _decoded(data, (str(expected), str(actual)))
     if pictures is None:
         return None
-    return _compared(*pictures, tolerance)
+    old, new = pictures
+    if old.mode != new.mode:
+        old, new = old.convert("RGBA"), new.convert("RGBA")
+    return StillPair(old, new)
+
+
+def measure_files(expected: Path, actual: Path, tolerance: Tolerance = EXACT) -> Difference | None:
+    """Measure a picture file against the expected one.
+
+    None for what `read_stills` does not read, and for tolerances of more than channels and pixels.
+    Raises OptionError for a file that cannot be read or is broken.
+    """
+    if not tolerance.limits().keys() <= {"tolerance", "pixels", "ratio"}:
+        return None
+    pair = read_stills(expected, actual)
+    return None if pair is None else pair.measure(tolerance)
 
 
 def _decoded(data: tuple[bytes, bytes], names: tuple[str, str]) -> "tuple[Image, Image] | None":
@@ -84,14 +139,12 @@ def _still(data: bytes, name: str) -> "Image | None":
 
 def _compared(old: "Image", new: "Image", tolerance: Tolerance) -> Difference:
     """The figures of `measure`, strip by strip."""
-    if old.mode != new.mode:
-        old, new = old.convert("RGBA"), new.convert("RGBA")
     width, height = old.size
     count = width * height
     beyond = hidden = total = 0
     values, boxes, far_boxes = [0] * 256, [], []
-    for top in range(0, height, _STRIP) if old is not new else ():
-        area = _changed_area(old, new, (0, top, width, min(top + _STRIP, height)))
+    for strip in _strips(old.size) if old is not new else ():
+        area = _changed_area(old, new, strip)
         if area is None:
             continue
         change, unseen = _change(old.crop(area), new.crop(area))
@@ -113,6 +166,13 @@ def _compared(old: "Image", new: "Image", tolerance: Tolerance) -> Difference:
         hidden=hidden,
         box=box_around(filter(None, far_boxes if beyond else boxes)),
     )
+
+
+def _strips(size: tuple[int, int]) -> Iterator[Box]:
+    """The corners of the strips of a picture."""
+    width, height = size
+    for top in range(0, height, _STRIP):
+        yield 0, top, width, min(top + _STRIP, height)
 
 
 def _changed_area(old: "Image", new: "Image", area: Box) -> Box | None:

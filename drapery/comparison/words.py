@@ -35,6 +35,17 @@ def compared_words(
     return f"{first} and {other}{' are' if difference.same else ':'} {words}"
 
 
+def short_labels(a: str, b: str, length: int = 40) -> tuple[str, str]:
+    """Two labels of at most so many characters, cut so that what differs is seen."""
+    if max(len(a), len(b)) <= length:
+        return a, b
+    common = next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), 0)
+    start = max(0, common - length // 4)
+    cut = [("…" if start else "") + label[start:] for label in (a, b)]
+    first, second = (each if len(each) <= length else each[: length - 1] + "…" for each in cut)
+    return first, second
+
+
 def named_frames(numbers: Sequence[int]) -> str:
     """The frames of a loop in words: runs are joined, and only the first ones are named."""
     runs: list[list[int]] = []

@@ -18,22 +18,24 @@ from collections.abc import Callable, Iterable, Iterator, Sized
 from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 from drapery.errors import OptionError
 from drapery.render.encode.output import check_writable, replacing
-from drapery.render.encode.palette import Matte
-from drapery.render.pixels import HasPixels
+
+if TYPE_CHECKING:
+    from drapery.render.encode.palette import Matte
+    from drapery.render.pixels import HasPixels
 
 Progress = Callable[[int, int | None], None]
-Writer = Callable[[BinaryIO, Iterable[HasPixels]], None]
+Writer = Callable[[BinaryIO, "Iterable[HasPixels]"], None]
 
 STILL_ENDINGS = (".png", ".apng", ".webp", ".gif")
 ANIMATION_ENDINGS = (".gif", ".apng", ".png", ".webp", ".mp4", ".webm", ".sheet.png")
 MAX_FPS = 1000
 
 
-def save_frame(frame: HasPixels, path: str | Path, *, matte: Matte | None = None) -> None:
+def save_frame(frame: "HasPixels", path: str | Path, *, matte: "Matte | None" = None) -> None:
     """Write one picture as PNG, lossless WebP or GIF.
 
     matte: in a GIF, the colour behind half-transparent pixels; with None, pixels of at least half
@@ -51,11 +53,11 @@ def save_frame(frame: HasPixels, path: str | Path, *, matte: Matte | None = None
 
 
 def save_animation(
-    frames: Iterable[HasPixels],
+    frames: "Iterable[HasPixels]",
     fps: float,
     path: str | Path,
     *,
-    matte: Matte | None = None,
+    matte: "Matte | None" = None,
     total: int | None = None,
     progress: Progress | None = None,
 ) -> None:
@@ -110,8 +112,8 @@ def check_fps(fps: float) -> None:
 
 
 def _checked(
-    frames: Iterable[HasPixels], total: int | None, progress: Progress | None
-) -> Iterator[HasPixels]:
+    frames: "Iterable[HasPixels]", total: int | None, progress: Progress | None
+) -> "Iterator[HasPixels]":
     rest = iter(frames)
     first = next(rest, None)
     if first is None:
@@ -125,7 +127,7 @@ def _checked(
             progress(number + 1, total)
 
 
-def _still_bytes(frame: HasPixels, ending: str) -> bytes:
+def _still_bytes(frame: "HasPixels", ending: str) -> bytes:
     if ending == ".webp":
         from drapery.render.encode.webp import webp_bytes
 
@@ -136,7 +138,7 @@ def _still_bytes(frame: HasPixels, ending: str) -> bytes:
 
 
 def _write(
-    kind: str, path: Path, frames: Iterator[HasPixels], fps: float, matte: Matte | None
+    kind: str, path: Path, frames: "Iterator[HasPixels]", fps: float, matte: "Matte | None"
 ) -> None:
     if kind == "/":
         from drapery.render.encode.sequence import write_sequence
@@ -157,7 +159,7 @@ def _write(
             _writer(kind, fps, matte)(file, frames)
 
 
-def _writer(kind: str, fps: float, matte: Matte | None) -> Writer:
+def _writer(kind: str, fps: float, matte: "Matte | None") -> Writer:
     if kind == ".gif":
         from drapery.render.encode.gif import write_gif
 
