@@ -430,8 +430,24 @@ def text_samples() -> dict[str, list[str]]:
     """Sound texts of every form of text."""
     samples = {name: _texts(name) for name in FORMS}
     lines = "# ours\n- white creeper:lime\n- red cross:5\n"
-    return samples | {ANY_TEXT: [lines, *(text for texts in samples.values() for text in texts)]}
+    broken = "give @s red_banner\n" + "".join(LONG_TEXTS.values())
+    texts = [text for texts in samples.values() for text in texts]
+    return samples | {ANY_TEXT: [lines, broken, *texts]}
 
+
+_LAYERS = '[banner_patterns=[{pattern:"creeper",color:"lime"}'
+LONG_TEXTS = {
+    "broken lines": f"/give @p white_banner{_LAYERS}\n",
+    "unclosed lines": "give @p white_banner[banner_patterns=[{\n",
+    "unclosed words": "give [banner\n",
+    "lines broken within a word": f"give @p white_ban\\\nner{_LAYERS}]]\n",
+    "lines broken within a name": 'give @p red_banner[banner_patterns=[{pattern:"cree\nper"}]]\n',
+    "lists of a command": "give @p white_banner[{\n {\n {\n",
+    "short lines": "a\\\n",
+    "talk": "say a banner\n",
+    "comments": "# banner layers\n",
+}
+"""Lines that took the processor's time when they were repeated up to the longest text."""
 
 _MORE_TEXTS = {
     "function": [

@@ -137,3 +137,11 @@ def test_bad_input_ends_in_one_line(tmp_path: Path, capsys: Any) -> None:
         assert main(arguments) == 2, arguments
         captured = capsys.readouterr()
         assert captured.err.count("\n") == 1 and not captured.out
+
+
+def test_a_json_file_has_a_largest_size(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("drapery.banner.check_game.MAX_JSON", 1000)
+    assert main([data(tmp_path, {"pc/26.3/items.json": " " * 1001})]) == 2
+    assert "items.json" in capsys.readouterr().err

@@ -1,11 +1,23 @@
 """Texts that are not banners: one line with the place and the remedy, in every form."""
 
+from contextlib import suppress
+
+import fuzzing
 import pytest
+from cost import limited_cost
 from hypothesis import given
 from hypothesis import strategies as st
 from tracing import untraced
 
-from drapery.banner.formats import FORMS, parse_banner, write_banner
+from drapery.banner.formats import (
+    FORMS,
+    functions,
+    parse_banner,
+    parse_banners,
+    registry,
+    write_banner,
+)
+from drapery.banner.formats.snbt import MAX_TEXT
 from drapery.errors import DesignError
 
 
@@ -182,6 +194,28 @@ def test_depth_within_the_limit_is_read():
 def test_length_is_refused_before_it_hurts(text: str, part: str):
     with untraced():
         assert part in fault(text)
+
+
+@pytest.mark.parametrize("name", fuzzing.LONG_TEXTS)
+def test_long_texts_of_commands_are_read_or_refused_soon(name: str):
+    line = fuzzing.LONG_TEXTS[name]
+    with limited_cost(5), untraced(), suppress(DesignError):
+        parse_banners(line * (MAX_TEXT // len(line)))
+
+
+def test_texts_of_broken_commands_are_refused():
+    broken = "give @s red_banner[\n"
+    with pytest.warns(UserWarning) as caught:
+        assert len(parse_banners("give @s red_banner\n" + broken * functions.MAX_BROKEN)) == 1
+    assert str(caught[-1].message) == "and 995 more like these"
+    message = fault("give @s red_banner\n" + broken * (functions.MAX_BROKEN + 1))
+    assert message.startswith("line 2, column 20: the text ends too early")
+    assert message.endswith("; 1000 more commands cannot be read: correct them")
+
+
+def test_a_text_has_a_largest_number_of_lines():
+    assert parse_banner("red" + "\n" * registry.MAX_LINES).base == "red"
+    assert "over 120000: split it" in fault("red" + "\n" * (registry.MAX_LINES + 1))
 
 
 @given(st.text(max_size=60))

@@ -86,6 +86,13 @@ def test_an_entry_that_may_hold_layers_never_leaves_a_plain_banner(entry: str) -
     assert [one.banner for one in found] == [LIME]
 
 
+def test_objects_have_a_largest_depth() -> None:
+    deep = f"const b = {'[' * 64}{{ id: 'minecraft:red_banner', {COMPONENTS} }}{']' * 64};"
+    with pytest.raises(DesignError, match="brackets nest over 64 deep"):
+        parse_banners(deep)
+    assert parse_banners(deep.replace("[" * 62, "", 1).replace("]" * 62, "", 1))[0].banner == LIME
+
+
 def test_details_that_are_computed_are_not_kept() -> None:
     text = f"const b = {{ id: 'red_banner', count: n, {COMPONENTS[:-2]}, lore: lines(2) }} }};"
     details = parse_banners(text)[0].details

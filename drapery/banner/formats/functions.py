@@ -5,8 +5,10 @@ brackets, goes on in the next one; a macro line begins with `$` and has paramete
 """
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import give
@@ -31,6 +33,9 @@ SOURCE = "https://minecraft.wiki/w/Function_(Java_Edition)"
 
 MAX_COMMANDS = 20_000
 """Most commands with a banner in one text."""
+
+MAX_BROKEN = 1000
+"""Most commands of one text that cannot be read. Each takes half a millisecond."""
 
 NOTHING = "there is no banner in the commands: paste a /give command"
 
@@ -66,8 +71,7 @@ def recognises(text: str) -> bool:
     if "\n" not in text.strip():
         return first_word(text) in _SHOWN and looks_like_design(text)
     known = holding = 0
-    for _, line in lines_of(text):
-        word = _command(line)
+    for _, word, _ in commands_of(text):
         holding += word in COMMANDS
         known += word in COMMANDS or word in _OTHERS or word.startswith("#")
         if holding and known > 1:
@@ -77,10 +81,9 @@ def recognises(text: str) -> bool:
 
 def has_only_commands(text: str) -> bool:
     """Whether every line is a comment, a macro or a command of the game."""
-    words = ((_command(line), line) for _, line in lines_of(text))
     return all(
         word in COMMANDS or word in _OTHERS or line.lstrip().startswith(("#", "$", "//"))
-        for word, line in words
+        for _, word, line in commands_of(text)
     )
 
 
@@ -98,18 +101,28 @@ def find(text: str, on_error: Callable[[DesignError], None]) -> list[FoundBanner
 
     on_error: called with the error of one broken line, after which the search continues.
 
-    Raises DesignError for over MAX_COMMANDS lines with a banner.
+    Raises DesignError for over MAX_COMMANDS lines with a banner and for over MAX_BROKEN broken
+    ones.
     """
-    lines = [(number, line) for number, line in lines_of(text) if _may_hold(line)]
+    lines = [(number, line) for number, word, line in commands_of(text) if _may_hold(word, line)]
     if len(lines) > MAX_COMMANDS:
         raise DesignError(f"the text has {len(lines)} commands, over {MAX_COMMANDS}: split it")
     found: list[FoundBanner] = []
+    known: dict[str, list[FoundBanner]] = {}
+    broken: list[DesignError] = []
     for number, line in lines:
         try:
-            read = _read_line(line, number)
-            found += [replace(one, where=f"line {number} {one.where}") for one in read]
+            if line not in known:
+                known[line] = _read_line(line, number)
+            found += [replace(one, where=f"line {number} {one.where}") for one in known[line]]
         except DesignError as error:
-            on_error(DesignError(_with_line(str(error), number)))
+            broken.append(DesignError(_with_line(str(error), number)))
+            if len(broken) > MAX_BROKEN:
+                raise DesignError(
+                    f"{broken[0]}; {MAX_BROKEN} more commands cannot be read: correct them"
+                ) from None
+    for each in broken:
+        on_error(each)
     return found
 
 
@@ -118,34 +131,65 @@ def write(banner: Banner) -> str:
     return f"give @s {give.argument(banner)}"
 
 
-def lines_of(text: str) -> Iterator[tuple[int, str]]:
-    """The commands and comments, with the numbers of their first lines. One may have several."""
+class _Command(NamedTuple):
+    """A command or a comment: the number of its first line, its first word, and its text."""
+
+    number: int
+    name: str
+    text: str
+
+
+@lru_cache(maxsize=1)
+def commands_of(text: str) -> tuple[_Command, ...]:
+    """The commands and comments of a text. One may have several lines.
+
+    The last text is kept, since a text is looked at several times until it is read.
+    """
+    found: list[_Command] = []
     parts: list[str] = []
-    first, depth, may_open = 0, 0, False
+    start = _Start(0, "", 0)
+    depth = 0
     for number, line in enumerate(text.split("\n"), 1):
-        if parts and not _goes_on(parts, depth, line):
-            yield first, _joined(parts)
+        name = _command(line)
+        if parts and not _goes_on(start, parts[-1], depth, line, name):
+            found.append(_finished(start, parts))
             parts = []
         if not parts:
-            first, depth, may_open = number, 0, _command(line) in _OPENING
+            start, depth = _Start(number, name, _indent(line)), 0
         if parts or line.strip():
             parts.append(line)
-            if may_open:
+            if start.name in _OPENING:
                 depth = max(0, depth + _opened(line))
     if parts:
-        yield first, _joined(parts)
+        found.append(_finished(start, parts))
+    return tuple(found)
 
 
-def _goes_on(parts: list[str], depth: int, line: str) -> bool:
-    """Whether a line goes on the command before it, which has `depth` open brackets."""
-    if _has_backslash(parts[-1]):
-        return not parts[0].lstrip().startswith("#")
-    name = _command(line)
+class _Start(NamedTuple):
+    """The first line of a command: its number, the command's name, and its indentation."""
+
+    number: int
+    name: str
+    indent: int
+
+
+def _finished(start: _Start, parts: list[str]) -> _Command:
+    if len(parts) == 1:
+        return _Command(start.number, start.name, parts[0])
+    text = _joined(parts)
+    return _Command(start.number, _command(text), text)
+
+
+def _goes_on(start: _Start, before: str, depth: int, line: str, name: str) -> bool:
+    """Whether a line, which begins with the word `name`, goes on the command of the line before it.
+
+    depth: the open brackets of that command.
+    """
+    if _has_backslash(before):
+        return not start.name.startswith("#")
     if name.startswith("#") or name in _KNOWN:
         return False
-    return depth > 0 or (
-        name != "" and _indent(line) > _indent(parts[0]) and _command(parts[0]) in COMMANDS
-    )
+    return depth > 0 or (name != "" and start.name in COMMANDS and _indent(line) > start.indent)
 
 
 def _indent(line: str) -> int:
@@ -179,9 +223,9 @@ def _joined(parts: list[str]) -> str:
     return "".join(pieces)
 
 
-def _may_hold(line: str) -> bool:
+def _may_hold(word: str, line: str) -> bool:
     """Whether a line is a command with a banner, or another with what looks like a design."""
-    word, low = _command(line), line.lower()
+    low = line.lower()
     if word in COMMANDS and ("banner" in low or "shield" in low):
         return True
     return not word.startswith("#") and word not in _SPOKEN and looks_like_design(low)

@@ -61,6 +61,9 @@ from drapery.banner.formats.wrapping import unwrap, without_suffix
 from drapery.banner.names import shown
 from drapery.errors import DesignError
 
+MAX_LINES = 120_000
+"""Most lines of a text, which is the most words too."""
+
 _MOST_WARNINGS = 5
 
 FormName = TypeVar("FormName", str, str | None)
@@ -170,6 +173,8 @@ def parse_all(text: str, form: str | None, errors: list[DesignError]) -> list[Fo
         raise DesignError(f"design {shown(text)} is not a text; write it in quotes")
     if len(text) > MAX_TEXT:
         raise DesignError(f"the text has {len(text)} characters, over {MAX_TEXT}: shorten it")
+    if (breaks := text.count("\n")) > MAX_LINES:
+        raise DesignError(f"the text has {breaks + 1} lines, over {MAX_LINES}: split it")
     text = text.removeprefix("\ufeff")
     if not text.strip():
         raise DesignError(f"the text is empty: give a banner, such as {shorthand.EXAMPLE!r}")
@@ -196,15 +201,19 @@ def _is_function(text: str) -> bool:
 
 def _any_form(text: str, errors: list[DesignError]) -> list[FoundBanner]:
     """The banners of a text in the form that recognises it, or line by line."""
+    is_typed = True  # where no form recognises it, or the one of texts that are typed by hand
     try:
-        found = _recognised(text)
-        return found if _is_typed(text) else _in_lines_if_more(text, found, errors)
+        inner = unwrap(text)
+        form = recognise(inner)
+        is_typed = form.name == shorthand.NAME
+        found = form.read(inner)
+        return found if is_typed else _in_lines_if_more(text, found, errors)
     except DesignError as error:
         if found := several.find_in_lines(text, _recognised, errors):
             return found
         if found := _without_suffix(text):
             return found
-        told = advice(text) if _is_typed(text) else None
+        told = advice(text) if is_typed else None
         raise (DesignError(f"the text is {told}") if told else error) from None
 
 
@@ -221,13 +230,6 @@ def _in_lines_if_more(
         return found
     errors += faults
     return in_lines
-
-
-def _is_typed(text: str) -> bool:
-    """Whether no form recognises a text, except the one of texts that are typed by hand."""
-    with suppress(DesignError):
-        return recognise(text).name == shorthand.NAME
-    return True
 
 
 def _without_suffix(text: str) -> list[FoundBanner]:
