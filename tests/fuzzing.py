@@ -430,9 +430,7 @@ def text_samples() -> dict[str, list[str]]:
     """Sound texts of every form of text."""
     samples = {name: _texts(name) for name in FORMS}
     lines = "# ours\n- white creeper:lime\n- red cross:5\n"
-    broken = "give @s red_banner\n" + "".join(LONG_TEXTS.values())
-    texts = [text for texts in samples.values() for text in texts]
-    return samples | {ANY_TEXT: [lines, broken, *texts]}
+    return samples | {ANY_TEXT: [lines, *(text for texts in samples.values() for text in texts)]}
 
 
 _LAYERS = '[banner_patterns=[{pattern:"creeper",color:"lime"}'

@@ -96,6 +96,7 @@ GOOD = '{pattern:"creeper",color:"lime"}'
         ("creeper:lime", ["base dye comes first"]),
         ("whit", ["did you mean 'white'"]),
         ("shield", ["no base dye"]),
+        ("- CREEPER:LIME\n- BORDER:BLACK\n", ["without a base dye", "a line before it"]),
         ("", ["empty"]),
         (" \n\t", ["empty"]),
         ("/tell @a hello", ["not a known form of a banner", "/give"]),

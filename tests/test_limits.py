@@ -195,7 +195,7 @@ def test_a_manifest_has_a_largest_size(tmp_path: Path, ending: str, name: str) -
 def test_a_text_in_a_manifest_has_a_largest_length(tmp_path: Path) -> None:
     path = tmp_path / "jobs.csv"
     path.write_text(f"design\n{'x' * (2**20 + 1)}\n", encoding="utf-8")
-    with pytest.raises(DraperyError, match="field larger than field limit"):
+    with pytest.raises(DraperyError, match="at most 1048576 characters in a cell"):
         read_manifest(path)
     with pytest.raises(ManifestError) as caught:
         read_manifest([{"design": "x" * (2**20 + 1)}])
