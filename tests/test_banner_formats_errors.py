@@ -96,7 +96,12 @@ GOOD = '{pattern:"creeper",color:"lime"}'
         ("creeper:lime", ["base dye comes first"]),
         ("whit", ["did you mean 'white'"]),
         ("shield", ["no base dye"]),
-        ("- CREEPER:LIME\n- BORDER:BLACK\n", ["without a base dye", "a line before it"]),
+        (
+            '{"item": "{\\"id\\":\\"red_banner\\",\\"components\\":{\\"banner_patterns\\":'
+            '[{\\"pattern\\":\\"creeper\\",\\"color\\":\\"lime\\"}]}}"}',
+            ["'item'", "packed as a text", "give what is in the quotes"],
+        ),
+        ("- CREEPER:LIME\n- BORDER:BLACK\n", ["without a base dye", "a line before them"]),
         ("", ["empty"]),
         (" \n\t", ["empty"]),
         ("/tell @a hello", ["not a known form of a banner", "/give"]),

@@ -101,7 +101,7 @@ def _words(line: str) -> list[str]:
 def _base(word: str) -> str:
     if word == "-":
         raise DesignError(
-            "a list of layers without a base dye: write the dye in a line before it, such as 'white'"
+            "a list of layers without a base dye: write it in a line before them, as 'white'"
         )
     if ":" in word.removeprefix("minecraft:"):
         raise DesignError(f"{shown(word)}: a base dye comes first, as in {EXAMPLE!r}")

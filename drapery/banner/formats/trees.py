@@ -5,12 +5,13 @@ import re
 from collections.abc import Iterator
 from contextlib import suppress
 from itertools import accumulate
+from typing import Any
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import loom_assistant, loot, own_json, wynncraft
 from drapery.banner.formats.found import FoundBanner, children_of, find_banners
 from drapery.banner.formats.javascript_values import parse_object
-from drapery.banner.formats.leftovers import check_read
+from drapery.banner.formats.leftovers import check_read, looks_like_design
 from drapery.banner.formats.snbt import MAX_DEPTH, MAX_TEXT, parse_snbt
 from drapery.banner.formats.tree import DataTree, banner_from_block_entity, banner_from_tag, get
 from drapery.banner.names import shown
@@ -52,9 +53,30 @@ def _some_of(tree: DataTree) -> list[FoundBanner]:
         return found
     if isinstance(tree, dict) and isinstance(tree.get("elements"), list):
         raise DesignError(_pool(tree))
+    if (key := _packed(tree)) is not None:
+        raise DesignError(
+            f"{shown(key)}: a design packed as a text in quotes; give what is in the quotes,"
+            ' with " in place of \\"'
+        )
     raise DesignError(
         f"no banner in the {_sort(tree)}: it needs an id such as 'minecraft:red_banner'"
     )
+
+
+def _packed(tree: DataTree) -> str | int | None:
+    """The key of the first text that is a tree with the layers of a banner, or None."""
+    nodes: list[Any] = [tree]
+    while nodes:
+        node = nodes.pop()
+        if isinstance(node, list):
+            node = dict(enumerate(node))
+        for key, value in node.items() if isinstance(node, dict) else ():
+            if isinstance(value, str) and value.lstrip()[:1] in ("{", "["):
+                if looks_like_design(value):
+                    return key
+            elif isinstance(value, (dict, list)):
+                nodes.append(value)
+    return None
 
 
 def _pool(tree: DataTree) -> str:
