@@ -4,6 +4,12 @@
 of a folder that have one size, with pixels of smoothed edges counted and not. The first folder has
 been made by `npm install odiff-bin pixelmatch pngjs`; the others are those of the fixtures in the
 repositories of both. odiff and pixelmatch 7 measure colours in YIQ as we do, pixelmatch 8 in OKLab.
+
+Of the 210 comparisons of pixelmatch's fixtures of up to 200,000 pixels all numbers of pixels are
+those of pixelmatch 7.1; 209 verdicts are those of pixelmatch 8.0, and 206 those of odiff 4.5, which
+sees translucent pixels on white only, not on a pattern. Of the 56 of odiff's fixtures of up to
+3,000,000 pixels all verdicts are those of odiff, and the 10 that pixelmatch's reader of PNG files
+takes are those of pixelmatch 7.1 with all numbers.
 """
 
 import argparse
