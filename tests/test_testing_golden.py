@@ -136,7 +136,60 @@ def test_other_dyes_and_counts_are_named() -> None:
     assert below.startswith("layer 1 (creeper, lime) is new; 108")
 
 
+def notes_of(design: str) -> list[dict[str, str]]:
+    return layer_notes(Banner.parse(design), open_packs(()))
+
+
+def test_more_changed_layers_than_are_named_are_counted() -> None:
+    before = notes_of("white cross:red border:red creeper:red skull:red")
+    after = notes_of("white cross:lime border:lime creeper:lime skull:lime")
+    line = explain_change(noise(1), noise(2), before, after)
+    assert line.count("became") == 3 and "; 1 more layer changed; 108 pixels" in line
+    line = explain_change(noise(1), noise(2), before, notes_of("blue"))
+    assert "; 2 more layers changed; 108 pixels" in line
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "change"),
+    [
+        ("white creeper:red base:blue", "white creeper:lime base:blue", "became (creeper, lime)"),
+        ("white creeper:red base:blue", "white base:blue", "is gone"),
+        ("white base:blue", "white creeper:red base:blue", "is new"),
+    ],
+)
+def test_a_hidden_layer_is_named_as_hidden_after_those_that_can_be_seen(
+    first: str, second: str, change: str
+) -> None:
+    said = explain_change(
+        noise(1),
+        noise(2),
+        notes_of(f"{first} cross:red"),
+        notes_of(f"{second} cross:lime"),
+    ).split("; ")
+    assert "(cross, red) became (cross, lime)" in said[0] and "hidden" not in said[0]
+    assert said[1].startswith("layer 1 (creeper, red) ")
+    assert said[1].endswith(f"{change}, hidden on the front by layers above")
+
+
+def test_a_layer_that_shows_beside_those_above_is_not_hidden() -> None:
+    line = explain_change(noise(1), noise(2), notes_of("white border:red"), notes_of("white"))
+    more = explain_change(
+        noise(1), noise(2), notes_of("white border:red cross:red"), notes_of("white cross:red")
+    )
+    assert "hidden" not in line + more
+
+
+@pytest.mark.parametrize("face", ["x", "AAAA", ""])
+def test_a_damaged_picture_of_a_layer_is_said(face: str) -> None:
+    after = notes_of("white creeper:lime")
+    before = [*after[:2], {**after[2], "face": face}]
+    line = explain_change(noise(1), noise(2), before, after)
+    assert line.startswith("layer 1 (creeper, lime) cannot be compared: its picture in the golden")
+
+
 def _shifted(face: str, down: int) -> str:
     from drapery.testing.explain import _pack, _unpack
 
-    return _pack(np.roll(_unpack(face), down, axis=0))
+    pixels = _unpack(face)
+    assert pixels is not None
+    return _pack(np.roll(pixels, down, axis=0))

@@ -2,6 +2,8 @@
 
 import base64
 from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,11 +21,14 @@ from drapery.comparison import (
     measure,
     measure_pictures,
 )
+from drapery.errors import DraperyError
 from drapery.packs import Packs
 from drapery.render import Pixels, png_bytes
 
 MAX_SHIFT = 4
 """How far a layer's picture may have moved to be recognised [texels]."""
+_MOST_NAMED = 3
+"""The most changed layers that are named."""
 
 LayerNote = dict[str, str]
 """A layer as a golden stores it: its name and its front face as a PNG."""
@@ -49,30 +54,71 @@ def explain_change(
 ) -> str:
     """One line: how much changed and, if layer notes are given, which layer and how.
 
-    expected, actual: what `as_picture` takes.
+    expected, actual: what `as_picture` takes. Layers that others hide are named last, as hidden.
     """
     old, new = as_picture(expected), as_picture(actual)
     sizes = old.described(), new.described()
     if sizes[0] != sizes[1]:
         return f"the size changed from {sizes[0]} to {sizes[1]}"
-    changes = list(_layer_changes(before, after)) if before and after else []
+    changes = _named_changes(before, after) if before and after else []
     words = difference_words(measure_pictures(old, new, tolerance), tolerance)
-    return "; ".join([*changes[:3], words])
+    return "; ".join([*changes, words])
 
 
-def _layer_changes(before: list[LayerNote], after: list[LayerNote]) -> Iterator[str]:
+def _named_changes(before: list[LayerNote], after: list[LayerNote]) -> list[str]:
+    """The first changes of layers in words, those that can be seen first, and how many more."""
+    stacks = [_Stack(before), _Stack(after)]
     names = [[note["name"] for note in notes] for notes in (before, after)]
-    for i, j in align(*names):
-        if i is None:
-            assert j is not None
-            yield f"{_place(j)} ({names[1][j]}) is new"
-        elif j is None:
-            yield f"{_place(i)} ({names[0][i]}) is gone"
-        elif names[0][i] != names[1][j]:
-            yield f"{_place(i)} ({names[0][i]}) became ({names[1][j]})"
-        elif before[i]["face"] != after[j]["face"]:
-            change = _face_change(_unpack(before[i]["face"]), _unpack(after[j]["face"]))
-            yield f"{_place(j)} ({names[1][j]}) {change}"
+    seen, hidden = [], []
+    for places in align(*names):
+        change = _layer_change(stacks, places)
+        if change and all(
+            place is None or stack.hides(place) for stack, place in zip(stacks, places, strict=True)
+        ):
+            hidden.append(f"{change}, hidden on the front by layers above")
+        elif change:
+            seen.append(change)
+    more = len(seen) + len(hidden) - _MOST_NAMED
+    rest = [f"{more} more layer{'s' if more > 1 else ''} changed"] if more > 0 else []
+    return [*seen, *hidden][:_MOST_NAMED] + rest
+
+
+@dataclass(frozen=True)
+class _Stack:
+    """The layers of a design, from the cloth up."""
+
+    notes: list[LayerNote]
+
+    @cached_property
+    def faces(self) -> list[Pixels | None]:
+        """The face of each layer; None where another program has changed the note."""
+        return [_unpack(note["face"]) for note in self.notes]
+
+    def hides(self, place: int) -> bool:
+        """Whether the layers above one of them hide all of its front face."""
+        face, *above = self.faces[place:]
+        if face is None:
+            return False
+        open_texels = face[..., 3] > 0
+        for other in above:
+            if other is not None and other.shape == face.shape:
+                open_texels &= other[..., 3] < 255
+        return not open_texels.any()
+
+
+def _layer_change(stacks: list[_Stack], places: tuple[int | None, int | None]) -> str:
+    """How a layer of both designs differs, in words; empty if it does not."""
+    (old, new), (i, j) = stacks, places
+    if i is None or j is None:
+        stack, place, verb = (old, i, "gone") if j is None else (new, j, "new")
+        assert place is not None
+        return f"{_place(place)} ({stack.notes[place]['name']}) is {verb}"
+    names = old.notes[i]["name"], new.notes[j]["name"]
+    if names[0] != names[1]:
+        return f"{_place(i)} ({names[0]}) became ({names[1]})"
+    if old.notes[i]["face"] == new.notes[j]["face"]:
+        return ""
+    return f"{_place(j)} ({names[1]}) {_face_change(old.faces[i], new.faces[j])}"
 
 
 def _place(number: int) -> str:
@@ -80,7 +126,9 @@ def _place(number: int) -> str:
     return f"layer {number - 1}" if number > 1 else "below the layers:"
 
 
-def _face_change(old: Pixels, new: Pixels) -> str:
+def _face_change(old: Pixels | None, new: Pixels | None) -> str:
+    if old is None or new is None:
+        return "cannot be compared: its picture in the golden is damaged"
     if old.shape != new.shape:
         return f"changed from {old.shape[1]}x{old.shape[0]} to {new.shape[1]}x{new.shape[0]} texels"
     for distance in range(1, MAX_SHIFT + 1):
@@ -110,6 +158,10 @@ def _pack(face: Pixels) -> str:
     return base64.b64encode(png_bytes(face)).decode("ascii")
 
 
-def _unpack(face: str) -> Pixels:
-    (pixels,) = decode_picture(base64.b64decode(face), "the golden's layer", ("PNG",)).frames
-    return eight_bits(pixels)
+def _unpack(face: str) -> Pixels | None:
+    """The pixels of a packed face; None if it is damaged."""
+    try:
+        picture = decode_picture(base64.b64decode(face), "the golden's layer", ("PNG",))
+    except (ValueError, DraperyError):
+        return None
+    return eight_bits(picture.frames[0])
