@@ -2,17 +2,15 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from drapery.comparison.ignored import painted
 from drapery.comparison.limits import LIMIT_OPTIONS, Box
-from drapery.comparison.metrics import eight_bits
-from drapery.comparison.picture import as_picture
 from drapery.comparison.tolerance import Tolerance
 from drapery.errors import OptionError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 def read_tolerance(given: Mapping[str, Any], folder: Path | None = None) -> Tolerance:
@@ -47,8 +45,13 @@ def _box(value: Any) -> Box:
     return left, top, width, height
 
 
-def _mask(source: Any) -> NDArray[np.bool_]:
+def _mask(source: Any) -> "NDArray[np.bool_]":
     """The pixels that a picture leaves out. Raises OptionError."""
+    # Imported here: the other limits need no numpy.
+    from drapery.comparison.ignored import painted
+    from drapery.comparison.metrics import eight_bits
+    from drapery.comparison.picture import as_picture
+
     frames = as_picture(source).frames
     if len(frames) > 1:
         raise OptionError(f"the mask is a loop of {len(frames)} frames; use a still picture")

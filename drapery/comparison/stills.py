@@ -70,18 +70,22 @@ class StillPair:
             yield parts
 
 
-def read_stills(expected: Path, actual: Path) -> StillPair | None:
-    """Two files of pictures.
+def read_stills(expected: Path, actual: "Path | Image") -> StillPair | None:
+    """A file of a picture, and another one or a Pillow image.
 
     None for what only `measure_pictures` compares: other files than PNG stills of colours with 8
-    bits a channel, and two sizes. Raises OptionError for a file that cannot be read or is broken.
+    bits a channel, images of other modes, and two sizes. Raises OptionError for a file that cannot
+    be read or is broken.
     """
-    data = picture_bytes(expected), picture_bytes(actual)
-    if not all(each[:8] == b"\x89PNG\r\n\x1a\n" and each[_KIND] in _KINDS for each in data):
-        return None
-    if data[0][_SIZE] != data[1][_SIZE]:
-        return None
-    pictures = _decoded(data, (str(expected), str(actual)))
+    data = picture_bytes(expected)
+    pictures: tuple[Image, Image] | None
+    if isinstance(actual, Path):
+        both = data, picture_bytes(actual)
+        if not all(map(_is_usual, both)) or both[0][_SIZE] != both[1][_SIZE]:
+            return None
+        pictures = _decoded(both, (str(expected), str(actual)))
+    else:
+        pictures = _beside(data, str(expected), actual)
     if pictures is None:
         return None
     old, new = pictures
@@ -90,8 +94,10 @@ def read_stills(expected: Path, actual: Path) -> StillPair | None:
     return StillPair(old, new)
 
 
-def measure_files(expected: Path, actual: Path, tolerance: Tolerance = EXACT) -> Difference | None:
-    """Measure a picture file against the expected one.
+def measure_files(
+    expected: Path, actual: "Path | Image", tolerance: Tolerance = EXACT
+) -> Difference | None:
+    """Measure a picture file, or a Pillow image, against the expected file.
 
     None for what `read_stills` does not read, and for tolerances of more than channels and pixels.
     Raises OptionError for a file that cannot be read or is broken.
@@ -100,6 +106,22 @@ def measure_files(expected: Path, actual: Path, tolerance: Tolerance = EXACT) ->
         return None
     pair = read_stills(expected, actual)
     return None if pair is None else pair.measure(tolerance)
+
+
+def _is_usual(data: bytes) -> bool:
+    """Whether a file is a PNG of colours with 8 bits a channel."""
+    return data[:8] == b"\x89PNG\r\n\x1a\n" and data[_KIND] in _KINDS
+
+
+def _beside(data: bytes, name: str, image: "Image") -> "tuple[Image, Image] | None":
+    """The picture in a file and an image; None if one of them needs the usual reader."""
+    size = int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
+    if not _is_usual(data) or image.mode not in ("RGB", "RGBA") or image.size != size:
+        return None
+    if getattr(image, "n_frames", 1) > 1 or "transparency" in image.info:
+        return None
+    old = _still(data, name)
+    return None if old is None else (old, image)
 
 
 def _decoded(data: tuple[bytes, bytes], names: tuple[str, str]) -> "tuple[Image, Image] | None":

@@ -200,7 +200,8 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
             fault = _check(
                 request,
                 labels[-1],
-                _drawn(picture, backend),
+                picture,
+                backend=backend,
                 tolerance=_tolerance(request.config, limits, hashed),
                 ending=".sha256" if hashed else ".png",
                 design=None if banner is None else (banner, tuple(packs)),
@@ -224,12 +225,12 @@ def _taken_faults(item: pytest.Item) -> list[str]:
 
 def _label(name: str | None, used: list[str], backend: str) -> str:
     """The label of a golden. Raises GoldenError if the test has used it."""
-    from drapery.testing.golden import GoldenError
-
     label = name or f"{len(used) + 1}"
     if backend not in ("soft", "auto"):
         label = f"{label}-{backend}"
     if label in used:
+        from drapery.testing.golden import GoldenError
+
         raise GoldenError(f"golden {label!r} is named twice in this test; use another name")
     return label
 
@@ -250,13 +251,13 @@ def _check(
     label: str,
     picture: Any,
     *,
+    backend: str,
     tolerance: "Tolerance",
     ending: str,
     design: "tuple[Banner, tuple[str | Path, ...]] | None",
 ) -> str | None:
-    from drapery.testing.check import GoldenCheck, check_golden
-    from drapery.testing.golden import GoldenError
     from drapery.testing.naming import golden_folder, golden_stem
+    from drapery.testing.passing import passes
     from drapery.testing.usage import same_but_for_case
 
     item, config = request.node, request.config
@@ -264,11 +265,17 @@ def _check(
     usage = config.stash[_USAGE]
     other = same_but_for_case(path, config.stash.setdefault(_NAMES, {}))
     if other is not None:
+        from drapery.testing.golden import GoldenError
+
         # A file system that ignores case would keep one file for both.
         raise GoldenError(
             f"golden {label!r}: {path.name} differs from {other} only in case; use another name"
         )
     usage.named.add(str(path))
+    if passes(path, picture, tolerance):
+        return None
+    from drapery.testing.check import GoldenCheck, check_golden
+
     result = check_golden(
         GoldenCheck(
             test=item.nodeid,
@@ -280,7 +287,7 @@ def _check(
             report=_report_places(config)[0],
             root=config.invocation_params.dir,
         ),
-        picture,
+        _drawn(picture, backend),
         lambda: _notes(design),
     )
     if result.written is not None:
@@ -297,10 +304,12 @@ def _tolerance(config: pytest.Config, limits: dict[str, Any], hashed: bool) -> "
     """The limits of a golden over those of the project. Raises OptionError."""
     from drapery.comparison import EXACT, read_tolerance
     from drapery.errors import OptionError
-    from drapery.options import unknown_names
 
-    for fault in unknown_names(limits, frozenset(LIMIT_OPTIONS)):
-        raise OptionError(fault)
+    if not limits.keys() <= LIMIT_OPTIONS.keys():
+        from drapery.options import unknown_names
+
+        for fault in unknown_names(limits, frozenset(LIMIT_OPTIONS)):
+            raise OptionError(fault)
     given = {name: value for name, value in limits.items() if value is not None}
     if hashed:
         if given:
@@ -335,10 +344,13 @@ def _test_name(item: pytest.Item) -> str:
 
 def _forget(config: pytest.Config, test: str) -> None:
     """Remove what the report has of a test."""
+    entries = config.stash[_ENTRIES].pop(test, ())
+    if not entries:
+        return
     from drapery.testing.failures import remove_failure
 
     folder, _ = _report_places(config)
-    for id in config.stash[_ENTRIES].pop(test, ()):
+    for id in entries:
         _tidy(config, partial(remove_failure, folder, id))
 
 
