@@ -65,4 +65,4 @@ _TABLE = (
 )
 
 LIMIT_OPTIONS: Mapping[str, Option] = MappingProxyType({option.name: option for option in _TABLE})
-"""How much two pictures may differ; the last three need the extra `compare`."""
+"""How much two pictures may differ."""
