@@ -80,6 +80,19 @@ def test_the_programs_of_a_page_run(page: Path, reader: Reader) -> None:
             reader.type(page, block)
 
 
+def test_the_golden_test_of_the_guide_passes_after_its_update(
+    reader: Reader, untraced_processes: None
+) -> None:
+    (make_pack,) = (block for block in blocks(TUTORIAL) if block.title == "make_pack.py")
+    reader.type(TUTORIAL, make_pack)
+    reader.run("python make_pack.py")
+    page = DOCS / "guides" / "golden-images.md"
+    program = next(block for block in blocks(page) if block.language == "python")
+    (reader.folder / "test_creeper.py").write_text(program.text, "utf-8")
+    for options, code in ((" ", 1), (" --drapery-update", 0), (" ", 0)):
+        assert reader.run("pytest" + options)[0] == code
+
+
 @pytest.mark.parametrize("page", ALL, ids=lambda page: page.relative_to(ROOT).as_posix())
 def test_every_command_of_a_page_exists_with_its_options(page: Path) -> None:
     for block in blocks(page):
