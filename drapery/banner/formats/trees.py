@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from itertools import accumulate
 from typing import Any
@@ -68,13 +68,14 @@ def _packed(tree: DataTree) -> str | int | None:
     nodes: list[Any] = [tree]
     while nodes:
         node = nodes.pop()
-        if isinstance(node, list):
-            node = dict(enumerate(node))
-        for key, value in node.items() if isinstance(node, dict) else ():
+        named: Iterable[tuple[str | int, Any]] = ()
+        if isinstance(node, dict | list):
+            named = node.items() if isinstance(node, dict) else enumerate(node)
+        for key, value in named:
             if isinstance(value, str) and value.lstrip()[:1] in ("{", "["):
                 if looks_like_design(value):
                     return key
-            elif isinstance(value, (dict, list)):
+            elif isinstance(value, dict | list):
                 nodes.append(value)
     return None
 
