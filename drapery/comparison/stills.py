@@ -4,7 +4,7 @@ The import of numpy takes longer than all else in the comparison of two small pi
 as arrays take the memory of two more. The figures are those of `measure`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Thread
@@ -120,7 +120,12 @@ def _beside(data: bytes, name: str, image: "Image") -> "tuple[Image, Image] | No
         return None
     if getattr(image, "n_frames", 1) > 1 or "transparency" in image.info:
         return None
-    old = _still(data, name)
+
+    def loaded() -> "Image":
+        image.load()
+        return image
+
+    _, old = _at_once(loaded, lambda: _still(data, name))
     return None if old is None else (old, image)
 
 
@@ -129,25 +134,34 @@ def _decoded(data: tuple[bytes, bytes], names: tuple[str, str]) -> "tuple[Image,
     if data[0] == data[1]:
         one = _still(data[0], names[0])
         return None if one is None else (one, one)
-    found: list[Image | None] = [None, None]
+    first, second = _at_once(lambda: _still(data[0], names[0]), lambda: _still(data[1], names[1]))
+    return None if first is None or second is None else (first, second)
+
+
+def _at_once(
+    decode: "Callable[[], Image | None]", beside: "Callable[[], Image | None]"
+) -> "tuple[Image | None, Image | None]":
+    """What both functions return; the second one runs in another thread."""
+    found: list[Image | None] = []
     faults: list[BaseException] = []
 
-    def decode(number: int) -> None:
+    def work() -> None:
         try:
-            found[number] = _still(data[number], names[number])
+            found.append(beside())
         except BaseException as fault:
             faults.append(fault)
 
     # Each thread changes the filters of warnings and sets them back, in any order.
     with catch_warnings():
-        beside = Thread(target=decode, args=(1,), daemon=True)
-        beside.start()
-        found[0] = _still(data[0], names[0])
-        beside.join()
+        other = Thread(target=work, daemon=True)
+        other.start()
+        try:
+            first = decode()
+        finally:
+            other.join()
     if faults:
         raise faults[0]
-    first, second = found
-    return None if first is None or second is None else (first, second)
+    return first, found[0]
 
 
 def _still(data: bytes, name: str) -> "Image | None":
