@@ -146,7 +146,7 @@ def test_an_executor_that_gives_up_is_made_again() -> None:
         _kill_workers(pools, 3.0)
         answer = lost.result(5)
         assert isinstance(answer, Unavailable)
-        assert "workers in a row" in answer.reason
+        assert answer.reason == "the workers ended; ask again"
         assert queue.alive
         # The pool whose workers were killed last may still refuse a job.
         _wait_until(lambda: not isinstance(queue.ask(job("fine")).result(30), Unavailable))
