@@ -163,5 +163,5 @@ def _unpack(face: str) -> Pixels | None:
     try:
         picture = decode_picture(base64.b64decode(face), "the golden's layer", ("PNG",))
     except (ValueError, DraperyError):
-        return None
+        return None  # the failure line says that the layer's picture is damaged
     return eight_bits(picture.frames[0])
