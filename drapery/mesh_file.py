@@ -23,6 +23,11 @@ MAX_BYTES = 256 << 20
 MAX_FACES = 2_000_000
 """The most triangles of such a file."""
 
+# The loggers of trimesh's modules lie below this one. A handler keeps Python from writing what they
+# say to standard error.
+_LOG = logging.getLogger("trimesh")
+_LOG.addHandler(logging.NullHandler())
+
 MAX_UV = 10_000
 """The largest texture coordinate; a texture repeats after 1."""
 
@@ -141,10 +146,9 @@ def _moved(points: Array, matrix: Array) -> Array:
 @contextmanager
 def _quiet() -> Iterator[None]:
     """Without the library's log and NumPy's warnings: what is wrong is raised."""
-    log = logging.getLogger("trimesh")
-    before, log.disabled = log.disabled, True
+    before, _LOG.propagate = _LOG.propagate, False
     try:
         with warnings.catch_warnings(action="ignore"), np.errstate(all="ignore"):
             yield
     finally:
-        log.disabled = before
+        _LOG.propagate = before

@@ -3,6 +3,7 @@
 import base64
 import io
 import json
+import logging
 import struct
 from collections.abc import Callable
 from pathlib import Path
@@ -238,6 +239,20 @@ def test_relative_places_count_back_from_their_own_line(tmp_path: Path) -> None:
     text = with_uvs + "f -3/-3/-1 2/2/1 \\\n -1/-1/-1\n"
     (part,) = read_mesh_file(written(tmp_path, "uv.obj", text))
     assert part.uvs is not None and part.uvs.tolist() == [[0, 0], [1, 0], [0, 1]]
+
+
+def test_what_trimesh_logs_is_not_printed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    def logging_load(*_: object, **__: object) -> None:
+        logging.getLogger("trimesh.util").warning("failed to extract")
+        raise ValueError
+
+    monkeypatch.setattr(trimesh, "load", logging_load)
+    monkeypatch.setattr(logging.getLogger(), "handlers", [])
+    with pytest.raises(OptionError, match="cannot be read"):
+        read_mesh_file(written(tmp_path, "a.obj", OBJ + "f 1 2 3\n"))
+    assert capfd.readouterr().err == ""
 
 
 def test_a_texture_within_the_file_is_drawn(tmp_path: Path) -> None:
