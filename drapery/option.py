@@ -1,17 +1,54 @@
 """The description of an option: its type and bounds, its help, and its values as texts."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from numbers import Integral, Real
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 from drapery.errors import OptionError
 
 Audience: TypeAlias = Literal["anyone", "local", "python"]
 """Who may set an option: anyone over HTTP, the user of this machine, or only a Python program."""
 OptionType: TypeAlias = type[bool] | type[int] | type[float] | type[str] | type[Path] | None
+Effect: TypeAlias = Literal["motion", "wind", "shape", "surface", "camera", "light", "file"]
+"""What an option changes: how the cloth moves, the wind, what stands where, textures and materials,
+the camera, the light, or the pixels of a file."""
+Output: TypeAlias = Literal["still", "loop", "model", "page", "face", "link"]
+"""What is made: a picture, an animation, a 3-D file, a page of live cloth, a face without cloth, or
+the address of a design in the studio."""
+
+
+class Subject(NamedTuple):
+    """What is drawn.
+
+    kind: banner, shield, cape, elytra, garment or player.
+    placement, pose: as in `Settings`.
+    """
+
+    kind: str = "banner"
+    placement: str = "standing"
+    pose: str = "cloth"
+
+
+_HIDDEN: Mapping[str, frozenset[Effect]] = {
+    "item": frozenset(("motion", "wind", "camera")),
+    "model": frozenset(("light", "file")),
+    "face": frozenset(("motion", "wind", "shape", "camera", "light", "file")),
+}
+"""What does not show in a placement or an output: an item is stiff and has its own camera."""
+_CALLED = {
+    "item": "placement item",
+    "banner": "a banner",
+    "garment": "a garment",
+    "player": "a player",
+    "still": "a still picture",
+    "model": "a 3-D file",
+    "page": "a page of live cloth",
+}
+"""How messages name the words of subjects, and outputs."""
+_REMEDIES = dict.fromkeys(("garment", "player"), "set it in the garment's file")
 
 _TRUE = frozenset({"1", "true", "yes", "on"})
 _FALSE = frozenset({"0", "false", "no", "off"})
@@ -36,6 +73,9 @@ class Option:
     ending: texts that end with it are paths of files; only for options of type str.
     flag: its name on the command line.
     metavar: what help shows in place of the value.
+    affects: what it changes.
+    not_for: words of subjects, and outputs, for which it does nothing all the same.
+    remedy: what its refusal there advises.
     """
 
     name: str
@@ -53,6 +93,32 @@ class Option:
     ending: str = ""
     flag: str = ""
     metavar: str | None = None
+    affects: tuple[Effect, ...] = ()
+    not_for: tuple[str, ...] = ()
+    remedy: str = ""
+
+    def applies(self, subject: Subject | None = None, output: Output | None = None) -> bool:
+        """Whether it changes a subject in an output; None is any of them."""
+        return self._hidden_by(subject, output) is None
+
+    def refusal(self, subject: Subject | None = None, output: Output | None = None) -> str | None:
+        """Why it is refused for a subject in an output, one line; None where it applies."""
+        word = self._hidden_by(subject, output)
+        if word is None:
+            return None
+        remedy = self.remedy or _REMEDIES.get(word, "leave it out")
+        return f"{self.name} does nothing for {_CALLED.get(word, word)}; {remedy}"
+
+    def _hidden_by(self, subject: Subject | None, output: Output | None) -> str | None:
+        """The word of the subject, or the output, for which it does nothing."""
+        seen = set(self.affects)
+        words: tuple[str | None, ...] = (*(subject or ()), output)
+        for word in words:
+            if word is not None:
+                seen -= _HIDDEN.get(word, frozenset())
+                if not seen or word in self.not_for:
+                    return word
+        return None
 
     @property
     def public(self) -> bool:

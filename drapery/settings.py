@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, get_args
 
 from drapery.errors import OptionError
-from drapery.option import Option, shown, within
+from drapery.option import Option, Output, Subject, shown, within
 
 if TYPE_CHECKING:
     import numpy as np
@@ -56,13 +56,8 @@ MAX_FORMAT = 9999
 """Larger pack formats are a typing error; 26.3 has 97."""
 
 
-IDLE: Mapping[Placement, tuple[str, ...]] = {
-    "item": (
-        *("view", "solver", "grid", "fabric", "pins", "contact"),
-        *("wind", "direction", "gusts", "seed", "shadow"),
-    ),
-}
-"""Options that change nothing in a placement: an item has its own camera, and is stiff."""
+_BY_FILE = ("garment", "player")
+"""Subjects whose files describe their cloth."""
 
 
 class Options(TypedDict, total=False):
@@ -142,6 +137,8 @@ class Settings:
         takes=_is_pack,
         flag="--pack",
         metavar="PATH",
+        affects=("surface",),
+        not_for=("link",),
     )
     format: int | None = _option(
         None,
@@ -150,6 +147,7 @@ class Settings:
         bounds=(1, MAX_FORMAT),
         default_text="newest",
         metavar="N",
+        affects=("surface",),
     )
     kind: Kind = _option(
         "auto",
@@ -157,6 +155,8 @@ class Settings:
         "What is drawn; auto takes it from the design",
         choices=get_args(Kind),
         audience="anyone",
+        affects=("motion", "shape"),
+        not_for=(*_BY_FILE, "link"),
     )
     texture: str | Path | NDArray[np.uint8] | None = _option(
         None,
@@ -165,6 +165,9 @@ class Settings:
         takes=_has("shape", "dtype"),
         default_text="elytra.png of the packs",
         metavar="FILE",
+        affects=("surface",),
+        not_for=("banner", "player", "face", "link"),
+        remedy="for a cape use kind cape, for a player cape",
     )
     pose: Pose = _option(
         "cloth",
@@ -172,6 +175,8 @@ class Settings:
         "cloth is simulated; vanilla is the game's stiff sway",
         choices=get_args(Pose),
         audience="anyone",
+        affects=("motion", "shape"),
+        not_for=(*_BY_FILE, "page"),
     )
     placement: Placement = _option(
         "standing",
@@ -179,6 +184,8 @@ class Settings:
         "On a pole, on a wall, or an item in its slot of the inventory",
         choices=get_args(Placement),
         audience="anyone",
+        affects=("motion", "shape", "camera"),
+        not_for=_BY_FILE,
     )
     rotation: int = _option(
         0,
@@ -186,6 +193,7 @@ class Settings:
         "Turn of a standing banner in sixteenths: 0 south, 4 west, 8 north, 12 east",
         bounds=(0, ROTATIONS - 1),
         audience="anyone",
+        affects=("shape",),
     )
     facing: Facing | None = _option(
         None,
@@ -194,6 +202,8 @@ class Settings:
         choices=get_args(Facing),
         default_text="south",
         audience="anyone",
+        affects=("shape",),
+        not_for=_BY_FILE,
     )
     view: str | View = _option(
         "front",
@@ -202,12 +212,15 @@ class Settings:
         choices=get_args(ViewName),
         takes=_has("azimuth", "elevation", "fov"),
         audience="anyone",
+        affects=("camera",),
     )
     turntable: bool = _option(
         False,
         bool,
         "Let the camera go once around the subject in the time of an animation",
         audience="anyone",
+        affects=("camera",),
+        not_for=("still", "page", "model"),
     )
     size: tuple[int, int] = _option(
         (512, 512),
@@ -217,6 +230,7 @@ class Settings:
         unit="pixels",
         parts=("width", "height"),
         audience="anyone",
+        affects=("file",),
     )
     grid: tuple[int, int] = _option(
         (16, 31),
@@ -226,6 +240,8 @@ class Settings:
         unit="particles",
         parts=("columns", "rows"),
         audience="anyone",
+        affects=("motion",),
+        not_for=_BY_FILE,
     )
     solver: SolverName | Solver = _option(
         "xpbd",
@@ -233,6 +249,7 @@ class Settings:
         "Method that moves the cloth",
         choices=get_args(SolverName),
         takes=_has("init", "step"),
+        affects=("motion",),
     )
     fabric: FabricName | Fabric = _option(
         "wool",
@@ -241,6 +258,8 @@ class Settings:
         choices=get_args(FabricName),
         takes=_has("density", "stretch", "bending"),
         audience="anyone",
+        affects=("motion", "wind"),
+        not_for=_BY_FILE,
     )
     forces: Sequence[Force] = _option(
         (),
@@ -249,6 +268,7 @@ class Settings:
         takes=_is_force,
         several=True,
         audience="python",
+        affects=("motion",),
     )
     pins: Pins | None = _option(
         None,
@@ -257,6 +277,8 @@ class Settings:
         choices=get_args(Pins),
         default_text="as its kind hangs",
         audience="anyone",
+        affects=("motion",),
+        not_for=_BY_FILE,
     )
     contact: Contact = _option(
         "all",
@@ -264,6 +286,8 @@ class Settings:
         "What the cloth cannot pass through: nothing, the world around it, or all: itself too",
         choices=get_args(Contact),
         audience="anyone",
+        affects=("motion",),
+        not_for=_BY_FILE,
     )
     wind: float | Wind = _option(
         4.0,
@@ -273,6 +297,7 @@ class Settings:
         unit="m/s",
         takes=_has("velocity", "gusts"),
         audience="anyone",
+        affects=("wind",),
     )
     direction: float | None = _option(
         None,
@@ -283,6 +308,7 @@ class Settings:
         default_text="19.3",
         metavar="DEGREES",
         audience="anyone",
+        affects=("wind",),
     )
     gusts: float = _option(
         0.4,
@@ -290,6 +316,7 @@ class Settings:
         "Strength of the gusts: their rms over the mean wind speed",
         bounds=(0, 2),
         audience="anyone",
+        affects=("wind",),
     )
     time: float = _option(
         3.0,
@@ -298,6 +325,8 @@ class Settings:
         bounds=(0, 3600),
         unit="s",
         audience="anyone",
+        affects=("motion", "surface"),
+        not_for=("face",),
     )
     seed: int = _option(
         0,
@@ -305,6 +334,7 @@ class Settings:
         "Number that selects a sequence of gusts",
         bounds=(0, 2**32 - 1),
         audience="anyone",
+        affects=("wind",),
     )
     layers: LayerMode = _option(
         "stacked",
@@ -312,11 +342,15 @@ class Settings:
         "Quads one over the other as in the game, or one composite",
         choices=get_args(LayerMode),
         audience="anyone",
+        affects=("surface",),
+        not_for=(*_BY_FILE, "page", "model", "face"),
     )
     pbr: bool = _option(
         False,
         bool,
         "Light by the LabPBR maps of the packs (_n and _s)",
+        affects=("surface",),
+        not_for=(*_BY_FILE, "page", "model", "face"),
     )
     style: StyleLike | Sequence[StyleLike] = _option(
         (),
@@ -327,6 +361,8 @@ class Settings:
         ending=".toml",
         metavar="NAME|FILE",
         audience="anyone",
+        affects=("shape", "surface", "light", "file"),
+        not_for=("face",),
     )
     thickness: float = _option(
         1.0,
@@ -335,12 +371,15 @@ class Settings:
         bounds=(0, 8),
         unit="texels",
         audience="anyone",
+        affects=("motion", "shape"),
+        not_for=_BY_FILE,
     )
     background: str = _option(
         "transparent",
         str,
         "Colour behind the picture: transparent or #rrggbb",
         audience="anyone",
+        affects=("file",),
     )
     ground: str | None = _option(
         None,
@@ -348,6 +387,8 @@ class Settings:
         "Block below a standing banner, or wall behind one: none, grass, stone or another block",
         default_text="grass or stone_bricks in the hero view, else none",
         metavar="BLOCK",
+        affects=("shape",),
+        not_for=("item", "model"),
     )
     samples: Samples | None = _option(
         None,
@@ -355,6 +396,7 @@ class Settings:
         "Samples of each pixel; 1 gives the hard edges of pixel art",
         choices=get_args(Samples),
         default_text="4 in the hero view, else 1",
+        affects=("file",),
     )
     pixel: int = _option(
         1,
@@ -362,6 +404,8 @@ class Settings:
         "Draw smaller, then enlarge each pixel to a square of this side",
         bounds=(1, MAX_PIXEL),
         unit="pixels",
+        affects=("file",),
+        not_for=("page",),
     )
     light: Lighting | None = _option(
         None,
@@ -369,35 +413,43 @@ class Settings:
         "The game's two lights, the flat colours of the textures, or lights that cast shadows",
         choices=get_args(Lighting),
         default_text="studio in the hero view, else game",
+        affects=("light",),
     )
     block_light: int = _option(
         0,
         int,
         "Light level of torches",
         bounds=(0, MAX_LIGHT),
+        affects=("light",),
     )
     sky_light: int = _option(
         MAX_LIGHT,
         int,
         "Light level of the sky",
         bounds=(0, MAX_LIGHT),
+        affects=("light",),
     )
     daylight: float = _option(
         1.0,
         float,
         "1 at noon, 0 at night",
         bounds=(0, 1),
+        affects=("light",),
     )
     shadow: bool = _option(
         False,
         bool,
         "Draw a soft shadow on the floor",
+        affects=("light",),
+        not_for=("item",),
     )
     backend: str | DrawScene = _option(
         "auto",
         str,
         "Renderer: auto, soft, pyrender, or one of an installed package",
         takes=callable,
+        affects=("file",),
+        not_for=("page", "link"),
     )
 
     def __post_init__(self) -> None:
@@ -436,10 +488,9 @@ class Settings:
                 f"rotation {self.rotation} applies only to standing banners; {remedy}"
             )
 
-    @property
-    def idle(self) -> tuple[str, ...]:
-        """The options that change nothing in its placement."""
-        return IDLE.get(self.placement, ())
+    def subject(self, kind: str = "banner") -> Subject:
+        """What is drawn of a design of this kind."""
+        return Subject(kind if self.kind == "auto" else self.kind, self.placement, self.pose)
 
     @property
     def is_hero(self) -> bool:
@@ -519,6 +570,8 @@ LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
             bounds=(1 / 120, MAX_FRAMES),
             unit="s",
             audience="anyone",
+            affects=("motion", "file"),
+            not_for=("still", "page"),
         ),
         "fps": Option(
             "fps",
@@ -528,6 +581,8 @@ LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
             bounds=(1, 120),
             unit="frames/s",
             audience="anyone",
+            affects=("motion", "file"),
+            not_for=("still", "page"),
         ),
     }
 )
@@ -550,10 +605,16 @@ def check_used(given: Mapping[str, Any], placement: str = "standing") -> None:
 
     given: values by name; a default counts as not given. placement: unless it is given.
     """
-    placement = given.get("placement", placement)
-    for name in IDLE.get(placement, ()):  # type: ignore[call-overload]
-        if name in given and given[name] != OPTIONS[name].default:
-            raise OptionError(f"{name} does nothing for placement {placement}; leave it out")
+    subject = Subject(given.get("kind", "auto"), given.get("placement", placement))
+    for name, value in given.items():
+        refusal = OPTIONS[name].refusal(subject)
+        if refusal is not None and value != OPTIONS[name].default:
+            raise OptionError(refusal)
+
+
+def applicable(subject: Subject | None = None, output: Output | None = None) -> tuple[str, ...]:
+    """The names of the options that a text can set and that apply to a subject in an output."""
+    return tuple(name for name, o in NAMED_OPTIONS.items() if o.applies(subject, output))
 
 
 def check_format(number: int | None) -> None:

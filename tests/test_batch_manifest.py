@@ -101,7 +101,7 @@ def test_the_key_of_a_garment_holds_the_bytes_of_its_files(tmp_path: Path) -> No
     [
         ({"garment": "toga"}, "garment 'toga' is not known; use a file that ends with .toml"),
         ({"garment": "none.toml"}, "none.toml"),
-        ({"garment": "flag", "grid": "3x5"}, "grid does not apply to a garment"),
+        ({"garment": "flag", "grid": "3x5"}, "grid does nothing for a garment"),
         ({"garment": "flag", "wind": 99}, "wind 99"),
         ({"garment": "flag", "design": "wite"}, "wite"),
     ],

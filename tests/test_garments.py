@@ -377,7 +377,7 @@ def test_a_garment_becomes_a_model_and_takes_a_style(tmp_path: Path) -> None:
 
 
 def test_an_option_that_a_garment_does_not_use_is_refused() -> None:
-    with pytest.raises(OptionError, match="grid does not apply to a garment; set it in"):
+    with pytest.raises(OptionError, match="grid does nothing for a garment; set it in"):
         draw(find_garment("flag"), grid=(5, 9))
 
 

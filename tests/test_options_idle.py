@@ -9,8 +9,9 @@ from conftest import Run
 
 from drapery import Banner, Settings, animate, draw, iter_frames, save_model
 from drapery.errors import OptionError
+from drapery.option import Subject
 from drapery.options import check_options
-from drapery.settings import IDLE, NAMED_OPTIONS
+from drapery.settings import NAMED_OPTIONS
 from drapery.studio.snippets import ExportRequest, as_command, as_python
 
 CREEPER = Banner.parse("white creeper:lime")
@@ -54,7 +55,15 @@ def test_each_option_changes_an_item_or_is_refused(name: str) -> None:
     assert not np.array_equal(changed, draw(CREEPER, **plain).pixels)
 
 
-@pytest.mark.parametrize("name", IDLE["item"])
+IDLE = [
+    name
+    for name, option in NAMED_OPTIONS.items()
+    if name not in ("texture", "turntable", "ground")  # refused in other words
+    and not option.applies(Subject(placement="item"))
+]
+
+
+@pytest.mark.parametrize("name", IDLE)
 def test_all_ways_to_give_it_refuse_it(name: str, drapery: Run, tmp_path: Path) -> None:
     option = NAMED_OPTIONS[name]
     said = f"{name} does nothing for placement item; leave it out"

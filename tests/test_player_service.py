@@ -158,8 +158,11 @@ def test_rows_of_a_manifest_are_players(tmp_path: Path) -> None:
     [
         ({"skin": "none.png"}, "none.png"),
         ({"skin": "dancer", "design": "red"}, "a player takes no design or garment"),
-        ({"skin": "dancer", "texture": "x.png"}, "texture does not apply to a player; use cape"),
-        ({"skin": "dancer", "grid": "3x5"}, "grid does not apply"),
+        (
+            {"skin": "dancer", "texture": "x.png"},
+            "texture does nothing for a player; for a cape use",
+        ),
+        ({"skin": "dancer", "grid": "3x5"}, "grid does nothing for a garment"),
         ({"skin": "dancer", "armor": "mud"}, "armor 'mud' is not known"),
         ({"skin": "dancer", "armor": "iron"}, "armor iron: no pack has"),
         ({"motion": "fly"}, "motion 'fly' is not known"),

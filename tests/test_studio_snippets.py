@@ -19,7 +19,7 @@ from drapery.banner.formats import parse_banner
 from drapery.banner.formats.shorthand import write
 from drapery.commands import animate, flat, model, render, web
 from drapery.garments import find_garment
-from drapery.settings import Settings
+from drapery.settings import Settings, applicable
 from drapery.studio import snippets
 from drapery.studio.exports import make
 from drapery.studio.snippets import ExportRequest, as_command, as_python
@@ -130,11 +130,11 @@ def test_a_garment_shows_the_design_where_its_file_has_one(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("names", "command"),
     [
-        (snippets.PICTURE_OPTIONS, render),
-        (snippets.PICTURE_OPTIONS, animate),
-        (snippets.MODEL_OPTIONS, model),
-        (snippets.FACE_OPTIONS, flat),
-        (snippets.WEB_OPTIONS, web),
+        (applicable(), render),
+        (applicable(output="loop"), animate),
+        (applicable(output="model"), model),
+        (applicable(output="face"), flat),
+        (applicable(output="page"), web),
     ],
 )
 def test_the_commands_have_these_options_and_no_others(names, command) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from drapery import Banner
 from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
-from drapery.option import Option, shown
+from drapery.option import Option, Subject, shown
 from drapery.options import check_options, one_line, unknown_names
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
@@ -307,8 +307,9 @@ def _player(
             chosen[name] = PLAYER_OPTIONS[name].parse(value)
         except OptionError as error:
             faults.append(one_line(str(error)))
-    if given.get("texture") is not None:
-        faults.append("texture does not apply to a player; use cape")
+    refusal = OPTIONS["texture"].refusal(Subject("player"))
+    if given.get("texture") is not None and refusal is not None:
+        faults.append(refusal)
     if faults:
         return None, Settings()
     try:

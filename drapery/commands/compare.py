@@ -11,6 +11,7 @@ from drapery.commands.compare_folders import check_target, folders_of
 from drapery.commands.compare_folders import compare as compare_folders
 from drapery.commands.notices import compile_notice
 from drapery.comparison import LIMIT_OPTIONS
+from drapery.option import Subject
 
 if TYPE_CHECKING:
     from drapery.comparison import Comparison, Variant
@@ -21,7 +22,7 @@ _READING = {"form": "from", "number": "number"}
 """How a design is read: the names of parameters and options."""
 
 
-@o.pictured("design", "texture", more=LIMIT_OPTIONS)
+@o.pictured(subject=Subject("banner"), without=("design",), more=LIMIT_OPTIONS)
 def run(
     subjects: Annotated[
         list[str],

@@ -7,19 +7,14 @@ import typer
 
 from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, progress
+from drapery.option import Subject
 
 if TYPE_CHECKING:
     from drapery.garments import Garment
     from drapery.settings import Settings
 
-UNUSED = (
-    *("kind", "pose", "placement", "facing", "grid", "fabric", "pins", "contact"),
-    *("layers", "pbr", "thickness", "form", "number", "design"),
-)
-"""Options of banners that a garment does not use."""
 
-
-@o.pictured(*UNUSED)
+@o.pictured(subject=Subject("garment"))
 def run(
     context: typer.Context,
     name: Annotated[
@@ -85,12 +80,13 @@ def is_given(context: typer.Context, name: str) -> bool:
 def check_page_options(context: typer.Context, out: str) -> None:
     """Raise OptionError for an option that a page of live cloth does not use."""
     from drapery.errors import OptionError
-    from drapery.web import NOT_PLAYED
+    from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS
 
     if out.lower().endswith((".html", ".htm")):
-        for name in ("seconds", "fps", *NOT_PLAYED):
-            if is_given(context, name):
-                raise OptionError(f"{out}: a page shows live cloth; leave out --{name}")
+        for name, option in {**LOOP_OPTIONS, **NAMED_OPTIONS}.items():
+            refusal = option.refusal(output="page")
+            if refusal is not None and is_given(context, name):
+                raise OptionError(f"{out}: {refusal}")
 
 
 def write_garment(

@@ -16,14 +16,9 @@ OutOption = Annotated[
         help="out.glb (waves), or one pose as out.obj, out.ply, out.bbmodel or out.geo.json.",
     ),
 ]
-FLAT = (
-    *("size", "layers", "pbr", "background", "samples", "pixel", "backend", "turntable"),
-    *("light", "block_light", "sky_light", "daylight", "shadow", "ground"),
-)
-"""Options of pictures that a model does not use."""
 
 
-@o.pictured(*FLAT)
+@o.pictured("model")
 def run(
     out: OutOption,
     seconds: Annotated[float, typer.Option(help="Length of the loop; 0 for one pose.")] = 4.0,

@@ -1,15 +1,15 @@
 """The options that several commands share, made from the table of options."""
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 import typer
 
-from drapery.option import Option
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options, check_used
+from drapery.option import Option, Output, Subject
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options, applicable, check_used
 
 if TYPE_CHECKING:
     from drapery import Banner
@@ -73,19 +73,26 @@ _SOURCE = {"design": OptionalDesign, "form": FromOption, "number": NumberOption}
 
 
 def pictured(
-    *without: str, more: Mapping[str, Option] = MappingProxyType({})
+    output: Output | None = None,
+    subject: Subject | None = None,
+    *,
+    without: Sequence[str] = (),
+    more: Mapping[str, Option] = MappingProxyType({}),
 ) -> Callable[[Command], Command]:
-    """Add all options of a picture to a command that takes any keyword, after its own options.
+    """Add the options of a picture to a command that takes any keyword, after its own options.
 
-    without: options that it does not use. An option that the command declares is not replaced.
-    more: options of another table, which come first.
+    output, subject: only the options that apply to them; a subject with a file of its own takes no
+        design either. without: options that it leaves out. An option that the command declares is
+        not replaced. more: options of another table, which come first.
     """
 
     def extend(command: Command) -> Command:
         own = dict(inspect.signature(command).parameters)
         del own["words"]
         source = {name: _parameter(name, None, kind) for name, kind in _SOURCE.items()}
-        table = {**more, **NAMED_OPTIONS}
+        if subject is not None and subject.kind in ("garment", "player"):
+            source = {}
+        table = {**more, **{name: NAMED_OPTIONS[name] for name in applicable(subject, output)}}
         shared = source | {name: _from_option(option) for name, option in table.items()}
         added = {n: p for n, p in shared.items() if n not in own and n not in without}
         every = [p.replace(kind=p.KEYWORD_ONLY) for p in (own | added).values()]

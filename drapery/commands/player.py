@@ -5,11 +5,12 @@ from typing import Annotated, Any
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.garment import UNUSED, check_page_options, is_given, write_garment
+from drapery.commands.garment import check_page_options, is_given, write_garment
+from drapery.option import Subject
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 
 
-@o.pictured(*UNUSED, "texture", more=PLAYER_OPTIONS)
+@o.pictured(subject=Subject("player"), more=PLAYER_OPTIONS)
 def run(
     context: typer.Context,
     out: Annotated[

@@ -52,7 +52,7 @@ def write_patterns(
 
 
 @app.command("rotations")
-@o.pictured("placement", "rotation", "facing")
+@o.pictured(without=("placement", "rotation", "facing"))
 def write_rotations(
     out: SheetOption,
     view: o.ViewOption = "hero",

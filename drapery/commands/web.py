@@ -7,12 +7,11 @@ import typer
 
 from drapery.commands import options as o
 from drapery.commands.notices import compile_notice
-from drapery.web import NOT_PLAYED
 
 SIZE = "320x480"
 
 
-@o.pictured(*NOT_PLAYED)
+@o.pictured("page")
 def run(
     out: Annotated[
         Path,

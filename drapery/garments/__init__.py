@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from drapery.garments.assembly import SewnCloth, SewnPiece, tailor
     from drapery.garments.catalogue import find_garment, garment_names
     from drapery.garments.model import (
-        UNUSED_OPTIONS,
         ClothTexture,
         DiscPiece,
         Garment,
@@ -46,7 +45,6 @@ if TYPE_CHECKING:
     from drapery.player_settings import PlayerSettings
 
 __all__ = [
-    "UNUSED_OPTIONS",
     "ClothTexture",
     "DiscPiece",
     "Garment",
@@ -81,7 +79,6 @@ __getattr__, __dir__ = lazy_names(
     {
         "garments.catalogue": ("find_garment", "garment_names"),
         "garments.model": (
-            "UNUSED_OPTIONS",
             "ClothTexture",
             "DiscPiece",
             "Garment",

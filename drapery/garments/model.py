@@ -32,10 +32,10 @@ from drapery.garments.blends import POSE_ENDING, read_blend
 from drapery.garments.loading import load_tables
 from drapery.garments.profiles import is_profile_file
 from drapery.mesh_file import MESH_ENDINGS
-from drapery.option import shown
+from drapery.option import Subject, shown
 from drapery.options import unknown_names
 from drapery.player_settings import MAX_SPEED
-from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings
+from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings, applicable
 from drapery.style.equipment import SOLIDS, parse_armor, parse_trim
 from drapery.style.figure import WING_JOINTS
 from drapery.toml_text import Place
@@ -53,11 +53,6 @@ MAX_POINTS = 16_384
 MIN_CELL = 0.1
 """The least distance between particles along the longest rows of a piece [texels]; cloth is much
 thicker, so that finer cells only cover each other."""
-UNUSED_OPTIONS = (
-    *("kind", "pose", "placement", "facing", "grid", "fabric", "pins", "contact"),
-    *("layers", "pbr", "thickness"),
-)
-"""Options of pictures that do not apply to garments, whose files describe their cloth."""
 NO_BONE = "fixed"
 """What a pin is fastened to if it does not move."""
 
@@ -127,7 +122,8 @@ def _as_options(given: Any) -> dict[str, Any]:
     """Options of pictures by name, checked. Raises OptionError."""
     if not isinstance(given, dict):
         raise OptionError(f"picture {shown(given)} is not a table; write picture = {{ wind = 3 }}")
-    usable = frozenset(NAMED_OPTIONS) - set(UNUSED_OPTIONS) - {"texture"}
+    # A garment's pieces have their own textures, as a player has its cape's.
+    usable = frozenset(applicable(Subject("player")))
     if strange := unknown_names(given, usable):
         raise OptionError(strange[0])
     return {name: NAMED_OPTIONS[name].parse(value) for name, value in given.items()}
@@ -645,11 +641,10 @@ class Garment(GarmentTable):
 
     def check_settings(self, settings: Settings) -> None:
         """Raise OptionError for an option that its file sets in its stead, such as `grid`."""
-        for name in UNUSED_OPTIONS:
-            if getattr(settings, name) != OPTIONS[name].default:
-                raise OptionError(
-                    f"{name} does not apply to a garment; set it in the garment's file"
-                )
+        for name, option in OPTIONS.items():
+            refusal = option.refusal(Subject("garment"))
+            if refusal is not None and getattr(settings, name) != option.default:
+                raise OptionError(refusal)
 
     @property
     def paths(self) -> tuple[Path, ...]:

@@ -10,6 +10,7 @@ from urllib.parse import parse_qsl
 from drapery.batch.manifest import PictureRequest
 from drapery.errors import DraperyError, OptionError
 from drapery.option import Option, shown, within
+from drapery.option import Subject as Drawn
 from drapery.options import check_options, one_line, unknown
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
@@ -93,10 +94,7 @@ def pictures_in(folder: Path) -> dict[str, Path]:
 
 def options_of(subject: Subject) -> tuple[str, ...]:
     """The options that the address of a subject takes."""
-    from drapery.garments import UNUSED_OPTIONS
-
-    left_out = () if subject == "banner" else UNUSED_OPTIONS
-    return tuple(name for name in PUBLIC_OPTIONS if name not in left_out)
+    return tuple(name for name in PUBLIC_OPTIONS if OPTIONS[name].applies(Drawn(subject)))
 
 
 def _player_options(subject: Subject) -> tuple[str, ...]:

@@ -20,15 +20,14 @@ from drapery.banner import (
 )
 from drapery.option import shown
 from drapery.options import check_options
-from drapery.settings import NAMED_OPTIONS
+from drapery.settings import NAMED_OPTIONS, applicable
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
 from drapery.styles import style_names
 
-LOCAL_OPTIONS = frozenset({"packs", "texture", "kind", "backend"})
-"""Options that a link leaves out: they name or need a file, or depend on installed software."""
 MAX_STYLES = 16
 """The most styles in a link."""
-SHARED = tuple(name for name in NAMED_OPTIONS if name not in LOCAL_OPTIONS)
+SHARED = applicable(output="link")
+"""The options of a link: none names or needs a file, or depends on installed software."""
 
 _REMEDY = "copy the whole link again"
 

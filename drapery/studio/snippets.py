@@ -10,17 +10,15 @@ from typing import Any
 from drapery import Banner, Settings
 from drapery.banner import write_banner
 from drapery.garments import (
-    UNUSED_OPTIONS,
     Garment,
     PlayerSettings,
     find_garment,
     player_of,
 )
-from drapery.option import Option
+from drapery.option import Option, Output, Subject
 from drapery.scenes import Clip, SceneEntry, find_scene
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, frame_count
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, applicable, frame_count
 from drapery.studio.chosen_scene import SceneChoice
-from drapery.web import NOT_PLAYED
 
 STILLS = ("png",)
 LOOPS = ("gif", "apng", "webp", "mp4")
@@ -28,19 +26,16 @@ KINDS = (*STILLS, "face", *LOOPS, "glb", "html", "json")
 """The kinds of files: `face` is the flat face without cloth, `html` is a page with live cloth,
 `json` is the design itself."""
 
-PICTURE_OPTIONS = tuple(NAMED_OPTIONS)
-STILL_OPTIONS = tuple(name for name in PICTURE_OPTIONS if name != "turntable")
 SCALE = Option("scale", "Pixels of a texel", int, 8, bounds=(1, 256), unit="pixels")
 """The option `--scale` of `drapery flat`."""
-MODEL_OPTIONS = (
-    *("packs", "format", "kind", "texture", "pose", "placement", "rotation", "facing"),
-    *("view", "grid", "solver", "fabric", "pins", "contact", "wind", "direction", "gusts"),
-    *("time", "seed", "style", "thickness"),
-)
-"""Options of `drapery model`; the others have no effect on a 3-D file."""
-FACE_OPTIONS = ("packs", "format")
-WEB_OPTIONS = tuple(name for name in PICTURE_OPTIONS if name not in NOT_PLAYED)
-"""Options of `drapery web`."""
+OUTPUTS: dict[str, Output] = {
+    "png": "still",
+    **dict.fromkeys(LOOPS, "loop"),
+    "glb": "model",
+    "face": "face",
+    "html": "page",
+}
+"""What each kind of file is for the table of options; a design has none."""
 
 _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-:./,#")
 
@@ -249,21 +244,17 @@ def style_names_of(request: ExportRequest) -> tuple[str, ...]:
 
 
 _COMMANDS = {"png": "render", "face": "flat", "glb": "model", "html": "web"}
-_OPTIONS = {
-    "png": STILL_OPTIONS,
-    "glb": MODEL_OPTIONS,
-    "face": FACE_OPTIONS,
-    "html": WEB_OPTIONS,
-    "json": (),
-}
 
 
 def _names(request: ExportRequest) -> tuple[str, ...]:
-    names: tuple[str, ...] = _OPTIONS.get(request.kind, PICTURE_OPTIONS)
-    names = tuple(name for name in names if name not in request.settings.idle)
+    """The options that apply to the file."""
+    if request.kind not in OUTPUTS:
+        return ()
     if drawn_garment(request) is not None:
-        names = tuple(name for name in names if name not in (*UNUSED_OPTIONS, "texture"))
-    return names
+        subject = Subject("player")  # the studio's texture is that of its cape
+    else:
+        subject = request.settings.subject(request.banner.kind if request.banner else "banner")
+    return applicable(subject, OUTPUTS[request.kind])
 
 
 def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any]:

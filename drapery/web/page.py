@@ -4,7 +4,7 @@ import base64
 import gzip
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Literal
@@ -13,15 +13,15 @@ from drapery import draw
 from drapery.banner import PATTERN_NAMES, Banner, alt_text, write_banner
 from drapery.errors import DraperyError, OptionError
 from drapery.garments import (
-    UNUSED_OPTIONS,
     Garment,
     dressed_player,
     find_garment,
     make_wearer,
 )
+from drapery.option import Subject
 from drapery.packs import Packs, open_packs
 from drapery.render import make_folder, replacing, webp_bytes
-from drapery.settings import Placement, Settings
+from drapery.settings import Placement, Settings, applicable
 from drapery.styles import combined_style
 from drapery.web.bundle import WEB, bundled_module
 from drapery.web.scene_file import garment_scene_bytes, scene_bytes
@@ -184,7 +184,7 @@ def posed_player(
 
 def seen_settings(garment: Garment, settings: Settings, size: tuple[int, int] = SIZE) -> Settings:
     """What a user chose for banners, for a garment that is seen from behind; else its own."""
-    own = {field.name for field in fields(settings)} - set(UNUSED_OPTIONS)
+    own = applicable(Subject("garment"))
     given, standard = {name: getattr(settings, name) for name in own}, Settings()
     chosen = {name: given[name] for name in own if given[name] != getattr(standard, name)}
     return Settings(**{**given, **garment.picture, **chosen, "size": size, "rotation": FROM_BEHIND})
