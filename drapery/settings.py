@@ -16,7 +16,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, get_args
 
 from drapery.errors import OptionError
-from drapery.option import Option, Output, Subject, shown, within
+from drapery.option import Effect, Option, Output, Subject, shown, within
 
 if TYPE_CHECKING:
     import numpy as np
@@ -46,6 +46,8 @@ MAX_GRID = 129
 """The most particles along one side of a flag."""
 MAX_WIND = 40.0
 """Beyond a hurricane's [m/s]."""
+MAX_GUSTS = 2.0
+"""The strongest gusts, over the mean wind speed."""
 MAX_FRAMES = 3600
 MAX_PIXEL = 64
 MAX_LIGHT = 15
@@ -314,7 +316,7 @@ class Settings:
         0.4,
         float,
         "Strength of the gusts: their rms over the mean wind speed",
-        bounds=(0, 2),
+        bounds=(0, MAX_GUSTS),
         audience="anyone",
         affects=("wind",),
     )
@@ -491,6 +493,14 @@ class Settings:
     def subject(self, kind: str = "banner") -> Subject:
         """What is drawn of a design of this kind."""
         return Subject(kind if self.kind == "auto" else self.kind, self.placement, self.pose)
+
+    def only(self, *effects: Effect) -> Settings:
+        """The settings with their options that affect one of these; the others have their default.
+
+        Pictures whose cloth moves alike have equal ones of motion and wind.
+        """
+        kept = (name for name, o in OPTIONS.items() if not set(effects).isdisjoint(o.affects))
+        return Settings(**{name: getattr(self, name) for name in kept})
 
     @property
     def is_hero(self) -> bool:

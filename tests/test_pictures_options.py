@@ -16,7 +16,7 @@ from drapery.mesh import Array
 from drapery.render.backends import backend
 from drapery.render.frame import Pixels
 from drapery.render.views import VIEWS
-from drapery.scenes.stager import breeze, still
+from drapery.scenes.stager import still, wind_of
 from drapery.settings import Settings
 
 BANNER = Banner.parse("white creeper:lime border:black")
@@ -148,7 +148,7 @@ def test_what_cannot_be_is_refused(wrong: dict[str, object]) -> None:
         ("view", "iso", VIEWS["iso"]),
         ("backend", "soft", backend("soft")),
         ("solver", "xpbd", SolverXPBD()),
-        ("wind", 4.0, breeze(4.0, None, 0.4, 0)),
+        ("wind", 4.0, wind_of(Settings(wind=4.0))),
         ("fabric", "silk", FABRICS["silk"]),
         ("packs", (), open_packs(())),
         ("packs", (), [open_packs(())]),

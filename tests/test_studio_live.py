@@ -14,12 +14,13 @@ pytest.importorskip("nicegui")
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import open_packs
+from drapery.cloth import Wind
 from drapery.errors import OptionError
 from drapery.render.drawlist import draw_list
 from drapery.render.light import GAME_LIGHT
 from drapery.render.soft import draw_scene
-from drapery.scenes.stager import STEP, ClothSpec, still
-from drapery.settings import Settings
+from drapery.scenes.stager import STEP, ClothSpec, still, wind_of
+from drapery.settings import OPTIONS, Settings
 from drapery.studio.chosen_scene import SceneChoice
 from drapery.studio.live import Live, Ray
 from drapery.studio.live_cloth import new_live_cloth
@@ -32,7 +33,7 @@ from drapery.studio.wind_controls import (
     around,
     carried_on,
     steered,
-    wind_of,
+    wind_controls_of,
 )
 from drapery.web.messages import MessageEncoder, pack, unpack
 
@@ -276,7 +277,7 @@ def test_keys_send_the_wind_as_the_viewer_sees_it(key: str, azimuth: float, head
 
 
 def test_keys_make_the_wind_weaker_and_stronger_within_bounds() -> None:
-    controls = WindControls(4.0)
+    controls = WindControls(Settings(wind=4.0))
     assert steered(controls, "e", 0, 0.5).speed == 6.5
     assert steered(controls, "q", 0, 5.0).speed == 0.0
     assert steered(controls, "e", 0, 50.0).speed == 40.0
@@ -284,16 +285,30 @@ def test_keys_make_the_wind_weaker_and_stronger_within_bounds() -> None:
 
 
 def test_a_changed_wind_goes_on_where_it_was() -> None:
-    before, time = wind_of(WindControls(4.0)), 61.7
-    after = carried_on(before, wind_of(WindControls(4.3)), time)
+    before, time = WindControls(Settings(wind=4.0)).wind, 61.7
+    after = carried_on(before, WindControls(Settings(wind=4.3)).wind, time)
     phase = float(np.asarray(after.phases))
     swells = phase / after.sine_period
     assert abs(swells - round(swells)) < 1e-6
     old, new = (4.0 * time / 1.5) % 4096, (4.3 * (time + phase) / 1.5) % 4096
     assert abs(old - new) < 0.1
-    assert (
-        carried_on(before, wind_of(WindControls(4.0, direction=40.0)), time).phases == before.phases
-    )
+    aside = WindControls(Settings(wind=4.0, direction=40.0)).wind
+    assert carried_on(before, aside, time).phases == before.phases
+
+
+def test_a_wind_beyond_the_controls_is_kept_within_their_bounds() -> None:
+    wild = Settings(wind=Wind((0.0, 0.0, 90.0), gusts=9.0, seed=-1))
+    controls = wind_controls_of(wild)
+    assert (controls.speed, controls.heading) == (40.0, 0.0)
+    assert (controls.settings.gusts, controls.settings.seed) == (2.0, 2**32 - 1)
+
+
+@pytest.mark.parametrize("name", [n for n, o in OPTIONS.items() if "wind" in o.affects])
+def test_the_controls_hold_each_option_of_the_wind(name: str) -> None:
+    other = {"fabric": "silk", "wind": 9.0, "direction": 30.0, "gusts": 1.5, "seed": 4}
+    settings = Settings(**{name: other[name]})
+    assert wind_controls_of(settings) != wind_controls_of(Settings())
+    assert repr(wind_controls_of(settings).wind) == repr(wind_of(settings))
 
 
 def told_positions(encoder: MessageEncoder, live: Live, seen: dict[str, Any]) -> list[str]:

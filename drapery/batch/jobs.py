@@ -40,15 +40,13 @@ class Job:
     @property
     def motion(self) -> tuple[object, ...]:
         """Equal for jobs with the same motion of the cloth; a worker simulates it once."""
-        s, drawn = self.settings, self.banner
-        kind: str = s.kind
+        moved, drawn = self.settings.only("motion", "wind"), self.banner
+        kind: str = moved.kind
         if drawn is not None and kind == "auto":
             kind = drawn.kind if isinstance(drawn, Banner) else drawn.name
-        when = s.time if self.seconds is None else 0.0
-        still = self.seconds is None
-        wind = (s.wind, s.direction, s.gusts, s.seed)
-        times = (when, still, self.seconds or 0, self.fps or 0)
-        return (kind, s.pose, s.grid, s.pins, s.solver, *wind, *times)
+        if self.seconds is not None:
+            moved = replace(moved, time=0.0)
+        return (kind, replace(moved, kind="auto"), self.seconds, self.fps)
 
 
 @dataclass(frozen=True)

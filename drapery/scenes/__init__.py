@@ -32,13 +32,13 @@ if TYPE_CHECKING:
         WIND_AXIS,
         ClothSpec,
         Stager,
-        breeze,
         cloth_at_rest,
         cloth_spec,
         floor_under,
         flow,
         loop,
         still,
+        wind_of,
     )
 
 __all__ = [
@@ -55,7 +55,6 @@ __all__ = [
     "SceneEntry",
     "SceneParameters",
     "Stager",
-    "breeze",
     "cloth_at_rest",
     "cloth_spec",
     "exploded_view",
@@ -72,6 +71,7 @@ __all__ = [
     "scene_frames",
     "scene_names",
     "still",
+    "wind_of",
 ]
 
 __getattr__, __dir__ = lazy_names(
@@ -90,13 +90,13 @@ __getattr__, __dir__ = lazy_names(
             "WIND_AXIS",
             "ClothSpec",
             "Stager",
-            "breeze",
             "cloth_at_rest",
             "cloth_spec",
             "floor_under",
             "flow",
             "loop",
             "still",
+            "wind_of",
         ),
     },
 )

@@ -444,35 +444,19 @@ def flow(speed: float, direction: float | None) -> tuple[float, float, float]:
 
 
 def wind_of(settings: Settings, period: float | None = None) -> Wind:
-    """The wind of the settings, in the frame of the panels.
+    """The wind of the settings, in the frame of the panels; its ripples are as strong as its gusts.
 
     period: it repeats after this time [s]; all else of a Wind that is given stays.
     """
-    given = settings.wind
+    given, gusts = settings.wind, settings.gusts
     if isinstance(given, Wind):
         return given if period is None else replace(given, period=period)
-    return breeze(given, settings.direction, settings.gusts, settings.seed, period, settings.fabric)
-
-
-def breeze(
-    speed: float,
-    direction: float | None,
-    gusts: float,
-    seed: int,
-    period: float | None = None,
-    fabric: str | Fabric = "wool",
-) -> Wind:
-    """The wind that the settings describe by numbers, with ripples as strong as its gusts.
-
-    speed: [m/s]. direction, gusts, seed, fabric: see `Settings`. period: it repeats after this
-    time [s].
-    """
     return Wind(
-        flow(speed, direction),
+        flow(given, settings.direction),
         gusts=gusts,
-        seed=seed,
+        seed=settings.seed,
         period=period,
-        ripples=RIPPLES * gusts * _ripple_share(fabric),
+        ripples=RIPPLES * gusts * _ripple_share(settings.fabric),
         ripple_size=RIPPLE_SIZE,
         vortices=VORTICES * gusts,
     )
@@ -534,16 +518,8 @@ def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, 
     size = at.count * math.prod(spec.shape) * 3 * np.dtype(float).itemsize
     named = isinstance(spec.solver, str) and not isinstance(spec.fabric, Fabric)
     if named and not isinstance(settings.wind, Wind) and not settings.forces and size <= MAX_CACHED:
-        # Only what changes the wind: pictures that differ in other options share a motion.
-        wind = Settings(
-            wind=settings.wind,
-            direction=settings.direction,
-            gusts=settings.gusts,
-            seed=settings.seed,
-            placement=settings.placement,
-            fabric=settings.fabric,
-        )
-        return _cached(spec, wind, at)
+        # Pictures that differ in other options share a motion.
+        return _cached(spec, settings.only("motion", "wind"), at)
     return _record(spec, forces_of(settings, wind_of(settings, at.period)), at)
 
 

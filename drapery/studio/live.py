@@ -24,7 +24,6 @@ from drapery.studio.wind_controls import (
     carried_on,
     steered,
     wind_controls_of,
-    wind_of,
 )
 from drapery.style import Body, Shell, body_of, cover_crowd, turn
 from drapery.web.panes import Pane, ViewerState
@@ -108,7 +107,7 @@ class Live:
         stager = self._stager
         self._disturbed |= stager.steps > 0
         self.wind_controls = controls
-        wind = wind_of(controls)
+        wind = controls.wind
         stager.wind = carried_on(stager.wind, wind, self.time) if stager.steps else wind
 
     def press(self, keys: Iterable[str], azimuth: float) -> None:
@@ -129,7 +128,7 @@ class Live:
         self._held = None
         self._shadow = None
         self._stager.steps = 0
-        self._stager.wind = wind_of(self.wind_controls)
+        self._stager.wind = self.wind_controls.wind
         self._stager.cloths = [new_live_cloth(cloth.spec) for cloth in self._cloths]
 
     def grab(self, ray: Ray) -> bool:

@@ -1,13 +1,14 @@
 """The wind of the live cloth: sliders or keys set it, and it changes without a jump."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
-from drapery.cloth import Fabric, Wind
-from drapery.scenes import WIND_AXIS, breeze
-from drapery.settings import MAX_WIND, OPTIONS, Settings
+from drapery.cloth import Wind
+from drapery.scenes import WIND_AXIS, wind_of
+from drapery.settings import MAX_GUSTS, MAX_WIND, Settings
 
 DEFAULT_HEADING = float(np.degrees(np.arctan2(WIND_AXIS[0], WIND_AXIS[2])))
 """The direction to which a picture's wind blows [degrees]; 0 is straight out of the front."""
@@ -24,22 +25,30 @@ PHASES = 1 << 16
 
 @dataclass(frozen=True)
 class WindControls:
-    """The wind: speed [m/s], direction [degrees], gusts and seed as in `Settings`.
+    """The wind. settings: the options that affect it, as numbers. on: whether it blows."""
 
-    on: whether it blows. fabric: of the cloth; light cloth ripples less.
-    """
-
-    speed: float = OPTIONS["wind"].default
-    direction: float | None = None
-    gusts: float = Settings.gusts
-    seed: int = 0
+    settings: Settings = field(default_factory=Settings)
     on: bool = True
-    fabric: str | Fabric = Settings.fabric
+
+    @property
+    def speed(self) -> float:
+        """Mean speed of the wind while it blows [m/s]."""
+        return self.settings.wind_speed
 
     @property
     def heading(self) -> float:
         """The direction to which the wind blows [degrees], -180..180; 0 is away from the front."""
-        return DEFAULT_HEADING if self.direction is None else around(self.direction)
+        direction = self.settings.direction
+        return DEFAULT_HEADING if direction is None else around(direction)
+
+    @property
+    def wind(self) -> Wind:
+        """The wind on a cloth, in the cloth's frame; bit-identical to the wind of pictures."""
+        return wind_of(self.settings if self.on else replace(self.settings, wind=0.0))
+
+    def changed(self, **options: Any) -> "WindControls":
+        """The controls with other values of options. Raises OptionError."""
+        return replace(self, settings=replace(self.settings, **options))
 
 
 def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
@@ -48,17 +57,10 @@ def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:
     if isinstance(wind, Wind):
         x, _, z = wind.velocity
         heading = float(np.degrees(np.arctan2(x, z)))
-        return WindControls(min(_speed(wind), MAX_WIND), heading, wind.gusts, wind.seed, on)
-    return WindControls(
-        wind, settings.direction, settings.gusts, settings.seed, on, settings.fabric
-    )
-
-
-def wind_of(controls: WindControls) -> Wind:
-    """The wind on a cloth, in the cloth's frame; bit-identical to the wind of pictures."""
-    speed = controls.speed if controls.on else 0.0
-    direction, gusts, seed = controls.direction, controls.gusts, controls.seed
-    return breeze(speed, direction, gusts, seed, fabric=controls.fabric)
+        speed, gusts = min(_speed(wind), MAX_WIND), min(wind.gusts, MAX_GUSTS)
+        known = Settings(wind=speed, direction=heading, gusts=gusts, seed=wind.seed % 2**32)
+        return WindControls(known, on)
+    return WindControls(settings.only("wind"), on)
 
 
 def steered(
@@ -78,9 +80,9 @@ def steered(
         rest = around(float(np.degrees(np.arctan2(x, z))) - controls.heading)
         limit = TURN_RATE * seconds
         heading = around(controls.heading + min(max(rest, -limit), limit))
-        controls = replace(controls, direction=heading)
+        controls = controls.changed(direction=heading)
     rise = SPEED_RATE * seconds * (("e" in pressed) - ("q" in pressed))
-    return replace(controls, speed=min(max(controls.speed + rise, 0.0), MAX_WIND))
+    return controls.changed(wind=min(max(controls.speed + rise, 0.0), MAX_WIND))
 
 
 def around(degrees: float) -> float:
