@@ -13,7 +13,7 @@ PAGES = "test_studio_page"
 """The page's tests wait for a browser and a server, with deadlines: one worker runs them all, one
 after another, while the others do the rest."""
 LONGEST = (
-    *(PAGES, "test_testing_outside", "test_batch_run", "test_batch_server"),
+    *(PAGES, "test_cloth_bounds", "test_testing_outside", "test_batch_run", "test_batch_server"),
     *("test_cloth_bending", "test_render_soft", "test_typing"),
 )
 """Files that begin so come first, so that no worker is alone with them at the end."""
