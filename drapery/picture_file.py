@@ -10,6 +10,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING
 
 from drapery.errors import DraperyError, OptionError
+from drapery.file_formats import READERS
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -22,9 +23,6 @@ MAX_SCANS = 100
 """The most scans of a JPEG file of up to MAX_PIXELS, less of a larger one; usual are up to 10.
 
 Each takes time for all pixels."""
-
-FORMATS = ("PNG", "JPEG", "WEBP", "GIF")
-"""The formats that are read at all, by Pillow's names."""
 
 # Pillow logs some faults of files, which are refusals here; where nobody handles them, Python would
 # write them to standard error.
@@ -40,14 +38,14 @@ _END, _SCAN = 0xD9, 0xDA
 def opened_picture(
     data: bytes,
     name: str,
-    formats: Sequence[str] = FORMATS,
+    formats: Sequence[str] = READERS,
     *,
     max_pixels: int = MAX_PIXELS,
     max_side: int = MAX_SIDE,
 ) -> Iterator["Image"]:
     """A picture of which only the header is read; faults while it is decoded are refusals too.
 
-    data: the bytes of a file. name: its name in errors. formats: those that are tried, of FORMATS.
+    data: the bytes of a file. name: its name in errors. formats: those tried, by Pillow's names.
     Raises OptionError for what is no such picture, is broken, or exceeds max_pixels, max_side or
     MAX_SCANS.
     """

@@ -86,7 +86,7 @@ def save_model(
     progress: Callable[[int, int], object] | None = None,
     **options: Unpack[Options],
 ) -> None:
-    """Write a banner as a 3-D file: .glb (waves), or one pose as .obj, .ply, .bbmodel, .geo.json.
+    """Write a banner as a 3-D file: a GLB waves, the other formats hold one pose.
 
     banner, settings, options: see `draw`; the ground is not written.
     seconds: length of the loop [s]; 0 for one pose. fps: its frames per second.
@@ -94,12 +94,12 @@ def save_model(
     may raise to end the work, and then there is no file.
     Raises DesignError if `banner` is something else, OptionError, PackError or OutputError.
     """
-    from drapery.render.export import check_model_target
+    from drapery.render.encode import check_target
     from drapery.render.export import save_model as save_scenes
 
     design, chosen = _checked(banner, settings, options)
     chosen = replace(chosen, ground="none")
-    moves = check_model_target(path) == ".glb" and seconds != 0
+    moves = check_target(path, "model").moving and seconds != 0
     packs = open_packs(chosen.packs, format=chosen.format)
     if moves:
         tick, total = progress or (lambda done, total: None), frame_count(seconds, fps)

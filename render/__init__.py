@@ -38,17 +38,12 @@ if TYPE_CHECKING:
     from drapery.render.doctor import BackendReport, backend_report
     from drapery.render.drawing import Colour, draw_models, draw_scene, make_model
     from drapery.render.drawlist import DrawList, Topology, draw_list, make_topology
-    from drapery.render.encode import (
-        check_animation_target,
-        check_still_target,
-        save_animation,
-        save_frame,
-    )
+    from drapery.render.encode import check_target, save_animation, save_frame
     from drapery.render.encode.output import check_writable, make_folder, replacing
     from drapery.render.encode.png import apng_bytes, png_bytes
     from drapery.render.encode.quick_png import quick_png_bytes, quick_png_of_strips
     from drapery.render.encode.webp import webp_bytes
-    from drapery.render.export import MODEL_ENDINGS, check_model_target, save_model
+    from drapery.render.export import save_model
     from drapery.render.flatten import composite_layers
     from drapery.render.frame import Animation, Frame, Pixels
     from drapery.render.identity_cache import IdentityCache
@@ -64,7 +59,6 @@ if TYPE_CHECKING:
 
 __all__ = [
     "GAME_LIGHT",
-    "MODEL_ENDINGS",
     "UNLIT",
     "VIEWS",
     "Animation",
@@ -93,9 +87,7 @@ __all__ = [
     "backend_names",
     "backend_report",
     "bake_normal_maps",
-    "check_animation_target",
-    "check_model_target",
-    "check_still_target",
+    "check_target",
     "check_writable",
     "checkered",
     "clip_matrix",
@@ -163,17 +155,12 @@ __getattr__, __dir__ = lazy_names(
         "render.doctor": ("BackendReport", "backend_report"),
         "render.drawing": ("Colour", "draw_models", "draw_scene", "make_model"),
         "render.drawlist": ("DrawList", "Topology", "draw_list", "make_topology"),
-        "render.encode": (
-            "check_animation_target",
-            "check_still_target",
-            "save_animation",
-            "save_frame",
-        ),
+        "render.encode": ("check_target", "save_animation", "save_frame"),
         "render.encode.output": ("check_writable", "make_folder", "replacing"),
         "render.encode.png": ("apng_bytes", "png_bytes"),
         "render.encode.quick_png": ("quick_png_bytes", "quick_png_of_strips"),
         "render.encode.webp": ("webp_bytes",),
-        "render.export": ("MODEL_ENDINGS", "check_model_target", "save_model"),
+        "render.export": ("save_model",),
         "render.flatten": ("composite_layers",),
         "render.frame": ("Animation", "Frame", "Pixels"),
         "render.identity_cache": ("IdentityCache",),

@@ -8,6 +8,7 @@ import sys
 from importlib.metadata import version
 from typing import NamedTuple
 
+from drapery.file_formats import FORMATS
 from drapery.jit import DISABLE_JIT
 from drapery.render.backends import added_backends, backend
 from drapery.render.frame import Frame
@@ -92,7 +93,8 @@ def _added(name: str, package: str) -> BackendReport:
 
 def _video() -> BackendReport:
     works, said = _run(ENCODE)
-    detail = f"PyAV {said}, for .mp4 and .webm" if works else said
+    endings = " and ".join(each.ending for each in FORMATS if each.extra == "video")
+    detail = f"PyAV {said}, for {endings}" if works else said
     return BackendReport("video", works, detail, "" if works else INSTALL_VIDEO)
 
 

@@ -16,9 +16,10 @@ class Frame:
     pixels: Pixels
 
     def save(self, path: str | Path) -> None:
-        """Write the picture as .png, .apng, .webp or .gif.
+        """Write the picture in the format of the name's ending, see `drapery.file_formats`.
 
-        Raises OptionError for another ending, OutputError for a file that cannot be written.
+        Raises OptionError for an ending or a size that no format of pictures has, OutputError for a
+        file that cannot be written.
         """
         from drapery.render.encode import save_frame
 
@@ -42,10 +43,10 @@ class Animation:
         return len(self.frames)
 
     def save(self, path: str | Path) -> None:
-        """Write the animation as .gif, .apng, .png, .webp, .mp4, .webm, .sheet.png or folder/.
+        """Write the animation in the format of the name's ending, see `drapery.file_formats`.
 
-        Raises OptionError for another ending or for no frames, OutputError for a target that
-        cannot be written, BackendError for a video without PyAV.
+        Raises OptionError for an ending or a rate that no such format has and for no frames,
+        OutputError for a target that cannot be written, BackendError for a video without PyAV.
         """
         from drapery.render.encode import save_animation
 

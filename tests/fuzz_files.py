@@ -18,8 +18,8 @@ import trimesh
 from fuzzing import Target
 from PIL import Image
 
-from drapery.comparison.files import FORMATS
 from drapery.comparison.picture import decode_picture
+from drapery.file_formats import READERS
 from drapery.garments import Garment, tailor
 from drapery.garments.motions import find_motion
 from drapery.garments.profiles import read_profile
@@ -213,7 +213,7 @@ def meshes() -> dict[str, list[Any]]:
 def pictures() -> list[bytes]:
     """Sound pictures of each format that is read, and of several modes."""
     small = (9, 7)
-    found = [_picture(small, form, "RGB") for form in FORMATS]
+    found = [_picture(small, form, "RGB") for form in READERS]
     found += [_picture(small, "PNG", mode) for mode in ("1", "L", "LA", "P", "RGBA", "I;16")]
     found += [_picture(small, "PNG", "RGB", frames=3), _picture(small, "GIF", "P", frames=3)]
     found += [_picture(small, "WEBP", "RGBA", frames=2), _picture(small, "WEBP", "RGB", lossless=1)]

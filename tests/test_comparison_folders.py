@@ -110,8 +110,8 @@ def test_a_broken_file_ends_itself_alone(folders: Path, drapery: Run) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("old", "new", "-o", "r.png"), "the report of two folders is one of .html, .json"),
-        (("old", "new", "-o", "r.gif"), "the report of two folders is one of .html, .json"),
+        (("old", "new", "-o", "r.png"), "holds no page or figures; use .html, .htm or .json"),
+        (("old", "new", "-o", "r.gif"), "holds no page or figures; use .html, .htm or .json"),
         (("old", "white creeper:lime"), "compare it with one other such folder"),
         (("old", "new", "old"), "compare it with one other such folder"),
         (("old", "new", "--size", "64x64"), "--size does nothing for finished pictures"),

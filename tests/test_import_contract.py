@@ -24,7 +24,7 @@ FOUNDATION = {
     *("aot", "jit_cache", "jit_calls", "kernel_sources"),
     *("lazy", "toml_text", "player_settings"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
-    *("json_text", "model_faults"),
+    *("json_text", "model_faults", "file_formats"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets", "match"}
@@ -50,7 +50,8 @@ ALLOWED: dict[str, set[str]] = {
     "yaml_text": {"errors"},
     "user_files": {"errors"},
     "toml_text": {"errors", "user_files"},
-    "picture_file": {"errors"},
+    "file_formats": {"errors"},
+    "picture_file": {"errors", "file_formats"},
     "picture_pixels": {"errors"},
     "sqlite_faults": set(),
     "json_text": set(),

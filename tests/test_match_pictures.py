@@ -229,7 +229,7 @@ def test_the_command_makes_a_mural(
         (("--crop", "1,2"), "not four whole numbers"),
         (("--mural", "4"), "not two whole numbers"),
         (("--mural", "0x3"), "1 to 1024 banners"),
-        (("--mural", "1x1", "-o", "a.gif"), "ends in none of"),
+        (("--mural", "1x1", "-o", "a.doc"), "ends in none of"),
         (("--mural", "1x1", "--json"), "--json does not apply to a mural"),
         (("--layers", "17"), "layers"),
         (("--crop", "0,0,4,8"), "one colour only; the nearest dye is red"),

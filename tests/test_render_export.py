@@ -15,9 +15,10 @@ import trimesh
 from PIL import Image
 
 from drapery.errors import OptionError, OutputError
+from drapery.file_formats import endings_of
 from drapery.mesh import Mesh, vertex_normals
 from drapery.render.camera import Camera
-from drapery.render.export import MODEL_ENDINGS, save_model
+from drapery.render.export import save_model
 from drapery.render.light import UNLIT
 from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
@@ -261,7 +262,7 @@ def test_blockbench_models_hold_mesh_and_texture(tmp_path: Path) -> None:
         assert set(face["uv"]) == set(face["vertices"]) <= set(still["vertices"])
 
 
-@pytest.mark.parametrize("ending", MODEL_ENDINGS)
+@pytest.mark.parametrize("ending", endings_of("model"))
 def test_same_scenes_same_bytes(tmp_path: Path, ending: str) -> None:
     for run in ("one", "two"):
         (tmp_path / run).mkdir()
@@ -273,7 +274,7 @@ def test_same_scenes_same_bytes(tmp_path: Path, ending: str) -> None:
 def test_bad_input_is_refused_and_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(OptionError, match=r"\.stl.*\.glb, \.obj"):
         save_model(SCENES, tmp_path / "a.stl")
-    with pytest.raises(OptionError, match="ending"):
+    with pytest.raises(OptionError, match="without an ending it holds no 3-D file"):
         save_model(SCENES, tmp_path / ".glb")
     with pytest.raises(OutputError, match="does not exist"):
         save_model(SCENES, tmp_path / "no" / "a.glb")

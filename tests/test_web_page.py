@@ -140,7 +140,7 @@ def test_a_gallery_has_a_scene_and_a_command_for_each_item(playable: Playable) -
 
 def test_the_command_refuses_targets_and_designs_that_do_not_fit(drapery: Run) -> None:
     code, _, err = drapery("web", "white", "-o", "banner.png")
-    assert code == 2 and "banner.png: a page is an .html file" in err
+    assert code == 2 and "banner.png: PNG holds no page; use .html or .htm" in err
     code, _, err = drapery("web", "white", "--gallery", "-o", "gallery.html")
     assert code == 2 and "the gallery has designs of its own" in err
     code, _, err = drapery("web", "white", "--component", "-o", "dist")

@@ -3,13 +3,13 @@
 import io
 from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
 from typing import Protocol
 
 from drapery.batch.results import OutputRecord
 from drapery.batch.run import Progress
 from drapery.batch.stores import Store
 from drapery.errors import DraperyError
+from drapery.file_formats import endings_read
 from drapery.picture_file import opened_picture
 
 FILE = "report.html"
@@ -111,7 +111,7 @@ def _pictures(outs: list[str], store: Store) -> Iterable[tuple[str, str]]:
     """Small pictures, evenly chosen if there are many; videos have none."""
     step = max(1, -(-len(outs) // MAX_PICTURES))
     for out in outs[::step]:
-        if Path(out).suffix.lower() in (".png", ".apng", ".gif", ".webp"):
+        if out.lower().endswith(endings_read()):
             try:
                 yield out, _thumbnail(store.read(out))
             except (DraperyError, OSError, ValueError):

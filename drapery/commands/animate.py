@@ -6,6 +6,7 @@ import typer
 
 from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, progress
+from drapery.file_formats import endings_of
 
 OutOption = Annotated[
     str,
@@ -13,7 +14,7 @@ OutOption = Annotated[
         "-o",
         "--out",
         metavar="TARGET",
-        help="out.gif, out.apng, out.webp, out.mp4, or a folder for numbered frames.",
+        help=f"The animation: {', '.join(endings_of('loop')[:-1])}, or a folder of frames.",
     ),
 ]
 
@@ -31,12 +32,12 @@ def run(
 ) -> None:
     """Draw a banner waving in the wind, as a seamless loop."""
     from drapery import iter_frames
-    from drapery.render import check_animation_target, save_animation
+    from drapery.render import check_target, save_animation
     from drapery.settings import Settings, background_colour, frame_count
 
     settings = Settings(**o.options_of(words))
     behind = None if matte is None else background_colour(matte)[:3]
-    check_animation_target(out)
+    check_target(out, "loop")
     with compile_notice():
         drawn = iter_frames(o.design_of(words), settings, seconds=seconds, fps=fps)
         total = frame_count(seconds, fps)

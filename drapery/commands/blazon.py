@@ -26,10 +26,10 @@ def run(
     """Read a blazon such as 'Azure, a bend Or'; 'drapery show DESIGN --as blazon' writes one."""
     from drapery import draw_face
     from drapery.banner import read_design, write_banner
-    from drapery.render import check_still_target
+    from drapery.render import check_target
 
     if out is not None:
-        check_still_target(out)
+        check_target(out, "still")
     banner = read_design(text, form="blazon")
     print(write_banner(banner, written))
     if out is not None:

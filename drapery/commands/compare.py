@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.compare_folders import check_target, folders_of
+from drapery.commands.compare_folders import REPORTS, folders_of
 from drapery.commands.compare_folders import compare as compare_folders
 from drapery.commands.notices import compile_notice
 from drapery.comparison import LIMIT_OPTIONS
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from drapery.comparison import Comparison, Variant
     from drapery.render import Frame
 
-ENDINGS = (".png", ".gif", ".html", ".json")
 _READING = {"form": "from", "number": "number"}
 """How a design is read: the names of parameters and options."""
 
@@ -38,8 +37,8 @@ def run(
             "-o",
             "--out",
             metavar="FILE",
-            help="Side by side as .png, flickering as .gif, a report as .html, figures as .json;"
-            " of folders the last two.",
+            help="Side by side as a picture, flickering as an animation, a report as .html,"
+            " figures as .json; of folders the last two.",
         ),
     ] = None,
     perceptual: Annotated[
@@ -61,13 +60,12 @@ def run(
     Each --style is a picture of its own.
     """
     from drapery.comparison import compare_variants, draw_variants, is_picture, read_tolerance
+    from drapery.render import check_target
     from drapery.settings import Settings
 
     folders = folders_of(subjects)
     for target in out or []:
-        if folders:
-            check_target(target)
-        _check_target(target)
+        check_target(target, *(REPORTS if folders else (*REPORTS, "still", "loop")))
     limits = read_tolerance({name: words.pop(name) for name in LIMIT_OPTIONS})
     if folders or any(is_picture(subject) for subject in subjects):
         _refuse_options(words | {"layers": layers, "backend": backend}, cost)
@@ -112,30 +110,25 @@ def _cost(variant: "Variant") -> dict[str, float]:
     return {"quads": measured.quads, "ms_per_frame": measured.milliseconds}
 
 
-def _check_target(target: Path) -> None:
-    """Check a target before anything is drawn. Raises OptionError or OutputError."""
-    from drapery.errors import OptionError
-    from drapery.render import check_writable
-
-    if target.suffix.lower() not in ENDINGS:
-        raise OptionError(f"{target}: the ending of a comparison is one of {', '.join(ENDINGS)}")
-    check_writable(target)
-
-
 def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, float]]) -> None:
     from PIL import Image
 
     from drapery.comparison import html_report, pair_entry, pair_facts, pair_sheet, write_text
+    from drapery.file_formats import format_of
     from drapery.render import Animation, quick_png_bytes, replacing, stack_frames
 
-    ending = target.suffix.lower()
-    if ending == ".png":
+    format = format_of(target, *REPORTS, "still", "loop")
+    kind = format.kind(timed=False)
+    if kind == "still":
         sheet = stack_frames([pair_sheet(pair) for pair in pairs])
+        if format.name != "PNG":
+            sheet.save(target)
+            return
         with replacing(target) as beside:
             beside.write_bytes(quick_png_bytes(Image.fromarray(sheet.pixels)))
-    elif ending == ".gif":
+    elif kind == "loop":
         Animation(_flicker(pairs), 2.0).save(target)
-    elif ending == ".html":
+    elif kind == "page":
         entries = [pair_entry(pair) for pair in pairs]
         summary = " ".join(
             f"{label}: {c['quads']:.0f} quads, {c['ms_per_frame']:.2f} ms a frame."

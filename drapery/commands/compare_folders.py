@@ -8,11 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drapery.errors import OptionError
+from drapery.file_formats import Kind, format_of
 
 if TYPE_CHECKING:
     from drapery.comparison import FilePair, ReportEntry, Tolerance
 
-ENDINGS = (".html", ".json")
+REPORTS: tuple[Kind, ...] = ("page", "data")
+"""What a report can be."""
 MAX_PAGE = 256 << 20
 """The most characters of pictures in a page; further entries have none."""
 
@@ -43,12 +45,6 @@ def folders_of(subjects: Sequence[str]) -> tuple[Path, Path] | None:
     return Path(found[0]), Path(found[1])
 
 
-def check_target(target: Path) -> None:
-    """Raises OptionError for another kind of file than a report of folders can be."""
-    if target.suffix.lower() not in ENDINGS:
-        raise OptionError(f"{target}: the report of two folders is one of {', '.join(ENDINGS)}")
-
-
 def compare(
     folders: tuple[Path, Path],
     tolerance: "Tolerance",
@@ -60,7 +56,7 @@ def compare(
     from drapery.comparison import compare_folders, folder_files, html_report, write_text
 
     others = sum(folder_files(folder).others for folder in folders)
-    paged = any(target.suffix.lower() == ".html" for target in targets)
+    paged = any(format_of(target, *REPORTS).kind() == "page" for target in targets)
     verdicts: Counter[str] = Counter()
     entries: list[ReportEntry] = []
     facts: list[dict[str, Any]] = []
@@ -83,7 +79,7 @@ def compare(
     if room <= 0:
         summary += f"; pictures after the first {MAX_PAGE >> 20} MiB are left out of this page"
     for target in targets:
-        if target.suffix.lower() == ".html":
+        if format_of(target, *REPORTS).kind() == "page":
             write_text(target, html_report("Comparison of two folders", f"{summary}.", entries))
         else:
             words = {"files": facts, "counts": dict(verdicts), "left_out": others}

@@ -33,10 +33,10 @@ def run(
     from drapery.banner import read_design
     from drapery.errors import OptionError
     from drapery.option import shown, within
-    from drapery.render import check_still_target
+    from drapery.render import check_target
 
     within("scale", scale, 1, MAX_SCALE, "pixels")
-    check_still_target(out)
+    check_target(out, "still")
     # A Literal as the type would import pydantic, a sixth of the time of a picture.
     if kind not in get_args(FaceKind):
         raise OptionError(f"kind {shown(kind)} is not known; use auto, banner or shield")

@@ -7,6 +7,7 @@ import typer
 
 from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, progress
+from drapery.file_formats import formats_of
 
 if TYPE_CHECKING:
     from drapery.scenes import SceneEntry
@@ -30,7 +31,7 @@ _PAGE = """<!doctype html>
 <main>
 {% for scene in scenes %}
 <section>
-{% if scene.file.endswith(('.mp4', '.webm')) %}
+{% if is_video %}
 <video autoplay loop muted playsinline src="{{ scene.file }}"></video>
 {% else %}
 <img alt="{{ scene.summary }}" src="{{ scene.file }}" loading="lazy">
@@ -43,7 +44,9 @@ _PAGE = """<!doctype html>
 </main>
 </html>
 """
-KINDS = ("gif", "webp", "apng", "mp4", "webm")
+KINDS = {
+    each.ending[1:]: each for each in formats_of("loop") if each.single and each.kind() == "loop"
+}
 
 
 def run(
@@ -65,7 +68,7 @@ def run(
     from drapery.scenes import find_scene, scene_names
     from drapery.settings import OPTIONS
 
-    one_of("as", kind, KINDS)
+    one_of("as", kind, tuple(KINDS))
     scenes = [find_scene(name) for name in names or scene_names()]
     pixels = OPTIONS["size"].parse(size)
     _make_folder(out)
@@ -74,8 +77,9 @@ def run(
         file = f"{scene.name}.{kind}"
         _play(scene, out / file, pixels, seconds, backend)
         entries.append({"name": scene.name, "summary": scene.summary, "file": file})
+    is_video = KINDS[kind].media_type.startswith("video/")
     with replacing(out / "index.html") as page:
-        page.write_text(_rendered(entries), encoding="utf-8")
+        page.write_text(_rendered(entries, is_video), encoding="utf-8")
 
 
 def _play(
@@ -83,11 +87,11 @@ def _play(
 ) -> None:
     from dataclasses import replace
 
-    from drapery.render import check_animation_target, save_animation
+    from drapery.render import check_target, save_animation
     from drapery.scenes import scene_frames
     from drapery.settings import frame_count
 
-    check_animation_target(target)
+    check_target(target, "loop")
     clip = replace(scene.clip, size=size)
     if seconds is not None:
         clip = replace(clip, count=frame_count(seconds, clip.fps))
@@ -96,10 +100,10 @@ def _play(
         save_animation(frames, clip.fps, target, total=clip.count, progress=tick)
 
 
-def _rendered(entries: list[dict[str, str]]) -> str:
+def _rendered(entries: list[dict[str, str]], is_video: bool) -> str:
     from jinja2 import Environment
 
-    return Environment(autoescape=True).from_string(_PAGE).render(scenes=entries)
+    return Environment(autoescape=True).from_string(_PAGE).render(scenes=entries, is_video=is_video)
 
 
 def _make_folder(out: Path) -> None:

@@ -80,9 +80,10 @@ def is_given(context: typer.Context, name: str) -> bool:
 def check_page_options(context: typer.Context, out: str) -> None:
     """Raise OptionError for an option that a page of live cloth does not use."""
     from drapery.errors import OptionError
+    from drapery.file_formats import known_format
     from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS
 
-    if out.lower().endswith((".html", ".htm")):
+    if known_format(out, "page"):
         for name, option in {**LOOP_OPTIONS, **NAMED_OPTIONS}.items():
             refusal = option.refusal(output="page")
             if refusal is not None and is_given(context, name):
@@ -92,31 +93,24 @@ def check_page_options(context: typer.Context, out: str) -> None:
 def write_garment(
     garment: "Garment", out: str, settings: "Settings", seconds: float, fps: float
 ) -> None:
-    """Write a garment as a picture, an animation or a 3-D file. Raises DraperyError."""
+    """Write a garment as what the ending says. Raises DraperyError."""
     from drapery import draw, iter_frames, save_model
-    from drapery.render import (
-        MODEL_ENDINGS,
-        check_animation_target,
-        check_still_target,
-        save_animation,
-    )
+    from drapery.render import check_target, save_animation
     from drapery.settings import frame_count
 
-    target = out.lower()
-    if target.endswith((".html", ".htm")):
+    kind = check_target(out, "still", "loop", "model", "page").kind()
+    if kind == "page":
         from drapery.web.page import write_page
 
         with compile_notice():
             write_page(Path(out), garment, settings)
-    elif target.endswith(MODEL_ENDINGS):
+    elif kind == "model":
         with compile_notice():
             save_model(garment, out, settings, seconds=seconds, fps=fps)
-    elif target.endswith(".png") and not target.endswith(".sheet.png"):
-        check_still_target(out)
+    elif kind == "still":
         with compile_notice():
             draw(garment, settings).save(out)
     else:
-        check_animation_target(out)
         total = frame_count(seconds, fps)
         with compile_notice(), progress("frames", total) as tick:
             frames = iter_frames(garment, settings, seconds=seconds, fps=fps)

@@ -39,9 +39,10 @@ def run(
     from drapery.banner import read_design
     from drapery.packs import open_packs
     from drapery.pictures import draw_scenes
+    from drapery.render import check_target
     from drapery.scenes import exploded_view
     from drapery.settings import OPTIONS, Settings
-    from drapery.sheets import check_sheet_target, steps_sheet
+    from drapery.sheets import steps_sheet
 
     settings = Settings(
         packs=tuple(packs or ()),
@@ -51,8 +52,10 @@ def run(
         background=background,
         backend=backend,
     )
+    if out is not None:
+        check_target(out, "still")
     if steps is not None:
-        check_sheet_target(steps)
+        check_target(steps, "still", "page")
     banner = read_design(design, form=form, number=number)
     opened = open_packs(settings.packs, format=format)
     if as_json:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 MURAL_EFFORT = 8
 """The effort for each banner of a mural, unless one is given."""
 
-MURAL_ENDINGS = (".schem", ".mcfunction", ".png")
+MURAL_ENDINGS = (".schem", ".mcfunction")
 
 NOT_FOR_MURALS = ("alternatives", "mask", "weighting", "photo", "corners", "written", "as_json")
 NOT_FOR_PHOTOS = ("effort", "fit", "crop", "background", "mask", "weighting")
@@ -32,7 +32,7 @@ OutOption = Annotated[
         "-o",
         "--out",
         metavar="FILE",
-        help="The picture beside the banners, as .png or .html. With --mural: .png,"
+        help="The picture beside the banners, or a page. With --mural: a picture,"
         " .mcfunction or .schem; several files may be given.",
     ),
 ]
@@ -167,14 +167,15 @@ def _refuse(context: typer.Context, names: tuple[str, ...], what: str) -> None:
 def _check_targets(paths: list[Path], *, is_mural: bool) -> None:
     """Raises OptionError or RenderError for a file that cannot be written."""
     from drapery.errors import OptionError
-    from drapery.render import check_writable
-    from drapery.sheets import check_sheet_target
+    from drapery.file_formats import endings_of
+    from drapery.render import check_target, check_writable
 
     for path in paths:
         if not is_mural:
-            check_sheet_target(path)
-        elif path.suffix.lower() not in MURAL_ENDINGS:
-            raise OptionError(f"{path.name} ends in none of {', '.join(MURAL_ENDINGS)}; use one")
+            check_target(path, "still", "page")
+        elif not path.name.lower().endswith((*MURAL_ENDINGS, *endings_of("still"))):
+            known = ", ".join((*MURAL_ENDINGS, *endings_of("still")))
+            raise OptionError(f"{path.name} ends in none of {known}; use one")
         else:
             check_writable(path)
 
@@ -280,7 +281,7 @@ def _save_mural(made: "Mural", paths: list[Path], packs: "Packs") -> None:
         print(f"{item.count}\t{item.item}")
     for path in paths:
         ending = path.suffix.lower()
-        if ending == ".png":
+        if ending not in MURAL_ENDINGS:
             made.picture(packs).save(path)
             continue
         data = made.schematic() if ending == ".schem" else made.function().encode()

@@ -6,6 +6,7 @@ import typer
 
 from drapery.commands import options as o
 from drapery.commands.notices import compile_notice
+from drapery.file_formats import endings_of
 
 OutOption = Annotated[
     str,
@@ -13,7 +14,7 @@ OutOption = Annotated[
         "-o",
         "--out",
         metavar="TARGET",
-        help="out.glb (waves), or one pose as out.obj, out.ply, out.bbmodel or out.geo.json.",
+        help=f"The 3-D file: {', '.join(endings_of('model'))}; only GLB waves.",
     ),
 ]
 

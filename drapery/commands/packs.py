@@ -22,18 +22,21 @@ def run(
     ],
     out: Annotated[
         Path | None,
-        typer.Option("-o", "--out", metavar="FILE", help="All their patterns, as .png or .html."),
+        typer.Option(
+            "-o", "--out", metavar="FILE", help="All their patterns, as a picture or page."
+        ),
     ] = None,
     format: o.FormatOption = None,
 ) -> None:
     """List what packs have, lack and override; exit code 1 if something in them is broken."""
     from drapery.packs import describe_packs, open_packs
+    from drapery.render import check_target
     from drapery.settings import check_format
-    from drapery.sheets import check_sheet_target, contents_sheet
+    from drapery.sheets import contents_sheet
 
     check_format(format)
     if out is not None:
-        check_sheet_target(out)
+        check_target(out, "still", "page")
     reports = describe_packs(packs, format=format)
     print("\n\n".join("\n".join(_lines(report)) for report in reports))
     if out is not None:

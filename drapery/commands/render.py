@@ -20,9 +20,9 @@ def run(
 ) -> None:
     """Draw a banner, shield, cape or elytra and write one picture."""
     from drapery import draw
-    from drapery.render import check_still_target
+    from drapery.render import check_target
 
     options = o.options_of(words)
-    check_still_target(out)
+    check_target(out, "still")
     with compile_notice():
         draw(o.design_of(words), **options).save(out)

@@ -63,13 +63,12 @@ def _play(
     backend: str,
     style: Sequence[str],
 ) -> None:
-    from drapery.render import check_animation_target, check_still_target, save_animation
+    from drapery.render import check_target, save_animation
     from drapery.scenes import Clip, find_scene, scene_frames
     from drapery.settings import OPTIONS, frame_count
 
     scene, words = find_scene(name), _words(parameters)
-    is_still = out.lower().endswith(".png") and not out.lower().endswith(".sheet.png")
-    (check_still_target if is_still else check_animation_target)(out)
+    is_still = check_target(out, "still", "loop").kind() == "still"
     own = scene.clip
     fps = own.fps if fps is None else fps
     length = own.count / own.fps if seconds is None else seconds

@@ -10,11 +10,14 @@ from drapery.commands import options as o
 from drapery.commands.notices import compile_notice, say
 
 app = typer.Typer(
-    help="Write a sheet of many labelled pictures, as .png or .html.", no_args_is_help=True
+    help="Write a sheet of many labelled pictures, as a picture or a page.", no_args_is_help=True
 )
 
 SheetOption = Annotated[
-    Path, typer.Option("-o", "--out", metavar="FILE", help="The sheet: .png, or .html in one file.")
+    Path,
+    typer.Option(
+        "-o", "--out", metavar="FILE", help="The sheet: a picture, or an .html page in one file."
+    ),
 ]
 MAX_SCALE = 32
 MAX_MOMENTS = 8
@@ -37,11 +40,12 @@ def write_patterns(
     """All patterns in all dyes."""
     from drapery.banner import dye_name
     from drapery.packs import open_packs
+    from drapery.render import check_target
     from drapery.settings import check_format
-    from drapery.sheets import check_sheet_target, patterns_sheet
+    from drapery.sheets import patterns_sheet
 
     _check_scale(scale)
-    check_sheet_target(out)
+    check_target(out, "still", "page")
     check_format(format)
     opened = open_packs(tuple(packs or ()), format=format)
     side: Literal["front", "back"] = "back" if back else "front"
@@ -60,11 +64,12 @@ def write_rotations(
     **words: Any,
 ) -> None:
     """One design in all sixteen rotations."""
+    from drapery.render import check_target
     from drapery.settings import Settings
-    from drapery.sheets import check_sheet_target, rotations_sheet
+    from drapery.sheets import rotations_sheet
 
     settings = Settings(**o.options_of(words | {"view": view, "size": size}))
-    check_sheet_target(out)
+    check_target(out, "still", "page")
     with compile_notice():
         rotations_sheet(o.design_of(words), settings).save(out)
 
@@ -92,11 +97,12 @@ def write_packs(
 ) -> None:
     """One design with our own art and with each of many packs."""
     from drapery.banner import read_design
+    from drapery.render import check_target
     from drapery.settings import OPTIONS, Settings
-    from drapery.sheets import check_sheet_target, packs_sheet
+    from drapery.sheets import packs_sheet
 
     _check_scale(scale)
-    check_sheet_target(out)
+    check_target(out, "still", "page")
     settings = Settings(
         format=format,
         view=view,
@@ -125,13 +131,14 @@ def write_styles(
     """One design in every style, or in those of --style."""
     from drapery.banner import parse_banner
     from drapery.option import within
+    from drapery.render import check_target
     from drapery.settings import OPTIONS, Settings
-    from drapery.sheets import check_sheet_target, styles_sheet
+    from drapery.sheets import styles_sheet
 
     within("moments", moments, 1, MAX_MOMENTS)
     given = words | {"size": size} | ({} if view == "hero" else {"view": view})
     settings = replace(Settings(**o.options_of(given)), view=OPTIONS["view"].parse(view))
-    check_sheet_target(out)
+    check_target(out, "still", "page")
     with compile_notice():
         design = o.design_of(words) or parse_banner(STYLED)
         styles_sheet(design, settings, moments=moments).save(out)
@@ -149,12 +156,13 @@ def write_garments(
     backend: o.BackendOption = "auto",
 ) -> None:
     """Garments at four moments each, in their own view and wind."""
+    from drapery.render import check_target
     from drapery.settings import OPTIONS, Settings
-    from drapery.sheets import check_sheet_target, garments_sheet
+    from drapery.sheets import garments_sheet
 
     pixels = OPTIONS["size"].parse(size)
     settings = Settings(size=pixels, packs=tuple(packs or ()), backend=backend)
-    check_sheet_target(out)
+    check_target(out, "still", "page")
     with compile_notice():
         garments_sheet(settings, names or ()).save(out)
 
@@ -177,12 +185,13 @@ def write_players(
     backend: o.BackendOption = "auto",
 ) -> None:
     """Players in all motions, from three sides."""
+    from drapery.render import check_target
     from drapery.settings import OPTIONS, Settings
-    from drapery.sheets import check_sheet_target, players_sheet
+    from drapery.sheets import players_sheet
 
     pixels = OPTIONS["size"].parse(size)
     settings = Settings(size=pixels, packs=tuple(packs or ()), backend=backend)
-    check_sheet_target(out)
+    check_target(out, "still", "page")
     skins = [_absolute(each) for each in skin or ()]
     with compile_notice():
         players_sheet(settings, skins, wear=wear or ("cape",)).save(out)

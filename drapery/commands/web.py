@@ -33,6 +33,7 @@ def run(
 ) -> None:
     """Write a page with live cloth that needs no server, a gallery, or the custom element."""
     from drapery.errors import OptionError
+    from drapery.render import check_target
     from drapery.settings import Settings
     from drapery.web.gallery import write_gallery
     from drapery.web.page import write_component, write_page
@@ -45,8 +46,7 @@ def run(
             raise OptionError("the package shows any design; leave DESIGN out, or --component")
         write_component(out, settings)
         return
-    if out.suffix.lower() not in (".html", ".htm"):
-        raise OptionError(f"{out}: a page is an .html file; name it so, or use --component")
+    check_target(out, "page")
     if gallery:
         if words["design"] is not None:
             raise OptionError("the gallery has designs of its own; leave DESIGN out, or --gallery")

@@ -5,15 +5,13 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drapery.file_formats import READERS
 from drapery.picture_file import opened_picture
 from drapery.user_files import read_user_file
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-ENDINGS = (".png", ".apng", ".gif", ".webp", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
-"""The endings of pictures that are compared."""
-FORMATS = ("PNG", "GIF", "WEBP", "JPEG", "BMP", "TIFF")
 MAX_SIDE = 16384
 MAX_PIXELS = 1 << 28
 """The most pixels in all frames of a picture."""
@@ -27,7 +25,7 @@ def picture_bytes(path: Path) -> bytes:
 
 
 def opened(
-    data: bytes, name: str, formats: Sequence[str] = FORMATS
+    data: bytes, name: str, formats: Sequence[str] = READERS
 ) -> "AbstractContextManager[Image]":
     """A picture of which only the header is read. name: of the file in errors.
 

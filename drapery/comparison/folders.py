@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.comparison.files import ENDINGS
 from drapery.comparison.pairs import Comparison, compare_variants
 from drapery.comparison.picture import read_picture
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.comparison.variants import Variant
 from drapery.comparison.words import difference_words
 from drapery.errors import OptionError
+from drapery.file_formats import endings_read
 
 MAX_FILES = 100_000
 """The most files in a folder."""
@@ -60,7 +60,7 @@ def folder_files(folder: Path) -> FolderFiles:
     others = 0
     for parent, folders, files in os.walk(folder, onerror=_refuse):
         others += sum((Path(parent) / name).is_symlink() for name in folders)
-        pictures = [name for name in files if name.lower().endswith(ENDINGS)]
+        pictures = [name for name in files if name.lower().endswith(endings_read())]
         others += len(files) - len(pictures)
         within = Path(parent).relative_to(folder)
         names += ((within / name).as_posix() for name in pictures)

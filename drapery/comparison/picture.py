@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageSequence
 
-from drapery.comparison.files import FORMATS, MAX_PIXELS, opened, picture_bytes
+from drapery.comparison.files import MAX_PIXELS, opened, picture_bytes
 from drapery.errors import OptionError
+from drapery.file_formats import READERS
 from drapery.picture_pixels import Channels, pixels_of, sixteen_bit_pixels
 from drapery.render import Animation, Frame, Pixels
 
@@ -77,7 +78,7 @@ def read_picture(path: Path) -> Picture:
     return decode_picture(picture_bytes(path), str(path))
 
 
-def decode_picture(data: bytes, name: str, formats: Sequence[str] = FORMATS) -> Picture:
+def decode_picture(data: bytes, name: str, formats: Sequence[str] = READERS) -> Picture:
     """The picture in a file's bytes. name: of the file in errors. Raises OptionError."""
     with opened(data, name, formats) as image:
         count = getattr(image, "n_frames", 1)

@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drapery.comparison.files import ENDINGS
 from drapery.comparison.metrics import eight_bits
 from drapery.comparison.picture import Picture, as_picture, read_picture
 from drapery.errors import OptionError
+from drapery.file_formats import endings_read
 from drapery.render import Frame
 from drapery.settings import Options, Settings
 
@@ -148,7 +148,7 @@ def _drawn(
 
 def is_picture(subject: str) -> bool:
     """Whether a text is the path of a picture that can be compared."""
-    return subject.lower().endswith(ENDINGS) and Path(subject).is_file()
+    return subject.lower().endswith(endings_read()) and Path(subject).is_file()
 
 
 def is_pack(subject: str) -> bool:

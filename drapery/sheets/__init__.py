@@ -18,12 +18,11 @@ if TYPE_CHECKING:
     )
     from drapery.sheets.faces import contents_sheet, patterns_sheet, steps_sheet
     from drapery.sheets.letters import cloth_row, faces_row
-    from drapery.sheets.sheet import PictureSheet, SheetCell, check_sheet_target
+    from drapery.sheets.sheet import PictureSheet, SheetCell
 
 __all__ = [
     "PictureSheet",
     "SheetCell",
-    "check_sheet_target",
     "cloth_row",
     "contents_sheet",
     "faces_row",
@@ -48,6 +47,6 @@ __getattr__, __dir__ = lazy_names(
         ),
         "sheets.faces": ("contents_sheet", "patterns_sheet", "steps_sheet"),
         "sheets.letters": ("cloth_row", "faces_row"),
-        "sheets.sheet": ("PictureSheet", "SheetCell", "check_sheet_target"),
+        "sheets.sheet": ("PictureSheet", "SheetCell"),
     },
 )

@@ -3,14 +3,8 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.render import (
-    Frame,
-    Pixels,
-    check_still_target,
-    check_writable,
-    contact_sheet,
-    contact_table,
-)
+from drapery.file_formats import format_of
+from drapery.render import Frame, Pixels, contact_sheet, contact_table
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,9 +36,12 @@ class PictureSheet:
         return contact_sheet(self._pictures(), self.columns)
 
     def save(self, path: str | Path) -> None:
-        """Write it as .png, or as .html that needs no other file. Raises OutputError."""
+        """Write it as a picture, or as a page that needs no other file.
+
+        Raises OptionError for an ending of neither, OutputError.
+        """
         target = Path(path)
-        if target.suffix.lower() == ".html":
+        if format_of(target, "still", "page").kind() == "page":
             from drapery.comparison.report import write_text
             from drapery.sheets.page import html_page
 
@@ -55,11 +52,3 @@ class PictureSheet:
 
     def _pictures(self) -> list[tuple[str, Pixels]]:
         return [(cell.label, cell.pixels) for cell in self.cells]
-
-
-def check_sheet_target(path: Path) -> None:
-    """Check the target of a sheet before drawing. Raises OptionError or OutputError."""
-    if path.suffix.lower() == ".html":
-        check_writable(path)
-    else:
-        check_still_target(path)

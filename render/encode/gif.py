@@ -8,13 +8,13 @@ import struct
 import zlib
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
-from typing import BinaryIO, NamedTuple
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import GifImagePlugin, Image
 
-from drapery.errors import OptionError
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import (
     FramePatch,
@@ -27,7 +27,6 @@ from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.palette import MAX_COLOURS, Colours, ColourTable, Matte, Places, reduced
 from drapery.render.pixels import HasPixels
 
-MAX_FPS = 50
 KEEP, CLEAR = 1, 2  # GIF's disposal methods: how a viewer treats a frame before the next one
 LOOP_FOREVER = b"!\xff\x0bNETSCAPE2.0\x03\x01\0\0\0"
 
@@ -49,25 +48,28 @@ class IndexedImage(NamedTuple):
 
 
 def write_gif(
-    file: BinaryIO, frames: Iterable[HasPixels], fps: float, matte: Matte | None = None
+    path: Path, frames: Iterable[HasPixels], fps: float | None, matte: Matte | None
 ) -> None:
     """An animation that loops forever, or a still where there is one frame.
 
-    Up to 255 colours in all, or in each frame, are exact. Raises OptionError above 50 frames/s,
-    which players show at 10 frames/s.
+    fps: at most 50 frames/s; faster ones are shown at 10 frames/s. Up to 255 colours in all, or in
+    each frame, are exact.
     """
-    if fps > MAX_FPS:
-        raise OptionError(f"fps {fps:g}: a GIF shows at most {MAX_FPS}; use .apng or .webp")
+    with path.open("wb") as file:
+        for data in _blocks(frames, fps or 1, matte):
+            file.write(data)
+
+
+def _blocks(frames: Iterable[HasPixels], fps: float, matte: Matte | None) -> Iterator[bytes]:
     table = ColourTable()
     compressed = list(encode_ahead(frames, partial(_compress, table, matte), workers=1))
     paint, shared = _painter(table, max(frame.colours for frame in compressed))
     clear = bool(table.counts[0])
     times = frame_delays(fps, 100) if len(compressed) > 1 else iter([0])
     pages = zip(_patches(compressed, clear), times, strict=False)
-    file.write(_header(compressed[0].size, shared) + (LOOP_FOREVER if len(compressed) > 1 else b""))
-    for data in encode_ahead(pages, lambda page: _frame_data(*page, paint, shared is None, clear)):
-        file.write(data)
-    file.write(b";")
+    yield _header(compressed[0].size, shared) + (LOOP_FOREVER if len(compressed) > 1 else b"")
+    yield from encode_ahead(pages, lambda page: _frame_data(*page, paint, shared is None, clear))
+    yield b";"
 
 
 def _compress(table: ColourTable, matte: Matte | None, frame: HasPixels) -> CompressedFrame:

@@ -8,7 +8,8 @@ import struct
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from io import BytesIO
-from typing import BinaryIO
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
 
 from PIL import Image
 
@@ -16,6 +17,9 @@ from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import FramePatch, changed_patch, with_previous
 from drapery.render.encode.quick_png import SIGNATURE, png_chunk
 from drapery.render.pixels import HasPixels, Pixels
+
+if TYPE_CHECKING:
+    from drapery.render.encode.palette import Matte
 
 STILL_LEVEL = 6
 FRAME_LEVEL = 3  # two thirds of the time of level 6, for a file that is half as big again
@@ -29,6 +33,17 @@ def png_bytes(pixels: Pixels, level: int = STILL_LEVEL) -> bytes:
     return file.getvalue()
 
 
+def write_png(
+    path: Path, frames: Iterable[HasPixels], fps: float | None, matte: "Matte | None"
+) -> None:
+    """A still, or an animation that loops forever."""
+    with path.open("wb") as file:
+        if fps is None:
+            file.writelines(png_bytes(frame.pixels) for frame in frames)
+        else:
+            _write_loop(file, frames, fps)
+
+
 def apng_bytes(
     frames: Iterable[HasPixels], fps: float = 0, *, delays: Sequence[float] = (), plays: int = 0
 ) -> bytes:
@@ -38,11 +53,11 @@ def apng_bytes(
     [s], in place of fps. plays: how often the animation is played; 0 for ever.
     """
     file = BytesIO()
-    write_apng(file, frames, fps, delays=delays, plays=plays)
+    _write_loop(file, frames, fps, delays=delays, plays=plays)
     return file.getvalue()
 
 
-def write_apng(
+def _write_loop(
     file: BinaryIO,
     frames: Iterable[HasPixels],
     fps: float,

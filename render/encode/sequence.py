@@ -11,6 +11,7 @@ import re
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from drapery.errors import OutputError
 from drapery.render.encode.ahead import encode_ahead
@@ -18,10 +19,15 @@ from drapery.render.encode.output import check_writable, explained, partial_path
 from drapery.render.encode.png import FRAME_LEVEL, png_bytes
 from drapery.render.pixels import HasPixels
 
+if TYPE_CHECKING:
+    from drapery.render.encode.palette import Matte
+
 FRAME_NAME = re.compile(r"frame_\d{4,}\.png")
 
 
-def write_sequence(folder: Path, frames: Iterable[HasPixels]) -> None:
+def write_sequence(
+    folder: Path, frames: Iterable[HasPixels], fps: float | None, matte: "Matte | None"
+) -> None:
     """Write frame_0000.png and so on. Raises OutputError if the folder cannot be written."""
     check_folder(folder)
     gathering = partial_path(folder)

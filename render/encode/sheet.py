@@ -5,9 +5,9 @@ The layout is the "JSON hash" that TexturePacker and Aseprite export.
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.output import replacing
 from drapery.render.encode.png import png_bytes
 from drapery.render.pixels import HasPixels, Pixels
+
+if TYPE_CHECKING:
+    from drapery.render.encode.palette import Matte
 
 MAX_SIDE = 16_384  # the largest texture that common graphics hardware takes
 
@@ -66,10 +69,13 @@ def sheet_index(frames: Sequence[HasPixels], fps: float, name: str) -> dict[str,
     }
 
 
-def write_sheet(path: Path, frames: Sequence[HasPixels], fps: float) -> None:
+def write_sheet(
+    path: Path, frames: Iterable[HasPixels], fps: float | None, matte: "Matte | None"
+) -> None:
     """Write NAME.sheet.png and NAME.sheet.json. Raises OutputError."""
-    index = json.dumps(sheet_index(frames, fps, path.name), indent=1) + "\n"
-    png = png_bytes(sheet_pixels(frames))
+    every = list(frames)
+    index = json.dumps(sheet_index(every, fps or 1, path.name), indent=1) + "\n"
+    png = png_bytes(sheet_pixels(every))
     with replacing(path) as sheet, replacing(path.with_suffix(".json")) as beside:
         sheet.write_bytes(png)
         beside.write_text(index)

@@ -18,27 +18,37 @@ WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1
 # A fixed number of threads, since the output of the encoders depends on it.
 CODECS = {
-    ".mp4": ("libx264", {"crf": "14", "preset": "medium", "tune": "animation"}),
-    ".webm": ("libvpx-vp9", {"crf": "16", "b": "0", "deadline": "good", "cpu-used": "4"}),
+    "mp4": ("libx264", {"crf": "14", "preset": "medium", "tune": "animation"}),
+    "webm": ("libvpx-vp9", {"crf": "16", "b": "0", "deadline": "good", "cpu-used": "4"}),
 }
 
 
-def write_video(
-    path: Path, kind: str, frames: Iterable[HasPixels], fps: float, matte: Matte | None = None
+def write_mp4(
+    path: Path, frames: Iterable[HasPixels], fps: float | None, matte: Matte | None
 ) -> None:
-    """An MP4 or WebM; `kind` is the ending. Odd sizes grow by repeating the last row or column.
+    """An MP4. The background is the matte, or white. Raises BackendError if PyAV is missing."""
+    _write_video(path, "mp4", frames, fps or 1, matte)
 
-    A WebM without a matte has alpha. Otherwise the background is the matte, or white.
-    Raises BackendError if PyAV is missing.
-    """
-    av = load_av()
+
+def write_webm(
+    path: Path, frames: Iterable[HasPixels], fps: float | None, matte: Matte | None
+) -> None:
+    """A WebM; it has alpha without a matte. Raises BackendError if PyAV is missing."""
+    _write_video(path, "webm", frames, fps or 1, matte)
+
+
+def _write_video(
+    path: Path, kind: str, frames: Iterable[HasPixels], fps: float, matte: Matte | None
+) -> None:
+    """Write a video. Odd sizes grow by repeating the last row or column."""
+    av = _load_av()
     first, frames = _peek(frames)
-    alpha = kind == ".webm" and matte is None and bool((first.pixels[..., 3] < 255).any())
+    alpha = kind == "webm" and matte is None and bool((first.pixels[..., 3] < 255).any())
     codec, options = CODECS[kind]
-    if kind == ".mp4" and _has_avx512():
+    if kind == "mp4" and _has_avx512():
         options = {**options, "x264-params": "asm=AVX2"}
     try:
-        with av.open(str(path), "w", format=kind[1:], options={"fflags": "+bitexact"}) as container:
+        with av.open(str(path), "w", format=kind, options={"fflags": "+bitexact"}) as container:
             stream = container.add_stream(codec, Fraction(fps).limit_denominator(1001), options)
             _describe(stream, first.pixels, "yuva420p" if alpha else "yuv420p")
             convert = partial(_video_frame, av, stream.pix_fmt, None if alpha else matte or WHITE)
@@ -57,7 +67,7 @@ def _has_avx512() -> bool:
     return file.exists() and "avx512f" in file.read_text(encoding="utf-8", errors="replace")
 
 
-def load_av() -> Any:
+def _load_av() -> Any:
     try:
         import av
     except ImportError as error:

@@ -7,7 +7,8 @@ Pillow compresses each frame, several in parallel; this module joins the frames 
 import struct
 from collections.abc import Iterable
 from io import BytesIO
-from typing import BinaryIO
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
 
 from PIL import Image
 
@@ -15,6 +16,9 @@ from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import FramePatch, changed_patch, with_previous
 from drapery.render.encode.delays import frame_delays
 from drapery.render.pixels import HasPixels, Pixels
+
+if TYPE_CHECKING:
+    from drapery.render.encode.palette import Matte
 
 ANIMATED_WITH_ALPHA = 0x12
 DO_NOT_BLEND = 0x02
@@ -32,8 +36,19 @@ def webp_bytes(pixels: Pixels, method: int = 4) -> bytes:
     return file.getvalue()
 
 
-def write_webp(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
-    """An animation that loops forever; each frame replaces its rectangle, without blending."""
+def write_webp(
+    path: Path, frames: Iterable[HasPixels], fps: float | None, matte: "Matte | None"
+) -> None:
+    """A still, or an animation that loops forever."""
+    with path.open("wb") as file:
+        if fps is None:
+            file.writelines(webp_bytes(frame.pixels) for frame in frames)
+        else:
+            _write_loop(file, frames, fps)
+
+
+def _write_loop(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
+    """Each frame replaces its rectangle, without blending."""
     pairs, times = with_previous(frame.pixels for frame in frames), frame_delays(fps, 1000)
     for count, (patch, webp) in enumerate(encode_ahead(pairs, _encode_patch)):
         if count == 0:

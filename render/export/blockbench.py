@@ -16,13 +16,26 @@ from numpy.typing import NDArray
 
 from drapery.render.encode.png import png_bytes
 from drapery.render.export.parts import MeshPart, MeshParts
+from drapery.render.scene import Scene
 
 UNITS = 16  # per block
 
 Json = dict[str, Any]
 
 
-def bbmodel_text(parts: MeshParts, name: str) -> str:
+def bbmodel_files(parts: MeshParts, scene: Scene, fps: float, name: str) -> dict[str, bytes]:
+    """The file of the first frame: NAME.bbmodel."""
+    return {f"{name}.bbmodel": _bbmodel_text(parts, name).encode()}
+
+
+def bedrock_files(parts: MeshParts, scene: Scene, fps: float, name: str) -> dict[str, bytes]:
+    """The files of the first frame: NAME.geo.json and NAME_texture.png."""
+    texture = png_bytes(parts.atlas)
+    text = _bedrock_text(parts, name)
+    return {f"{name}_texture.png": texture, f"{name}.geo.json": text.encode()}
+
+
+def _bbmodel_text(parts: MeshParts, name: str) -> str:
     """A generic model with the texture inside. The same parts and name give the same text."""
     height, width = parts.atlas.shape[:2]
     png = base64.b64encode(png_bytes(parts.atlas)).decode()
@@ -45,7 +58,7 @@ def bbmodel_text(parts: MeshParts, name: str) -> str:
     return _text(model)
 
 
-def bedrock_text(parts: MeshParts, name: str) -> str:
+def _bedrock_text(parts: MeshParts, name: str) -> str:
     """A geometry document; the texture is a separate file."""
     height, width = parts.atlas.shape[:2]
     points = np.concatenate([part.positions[0] for part in parts.parts])

@@ -16,6 +16,7 @@ from drapery.render.camera import Camera, camera_pose
 from drapery.render.drawlist import Float32
 from drapery.render.encode.png import png_bytes
 from drapery.render.export.parts import MeshPart, MeshParts, MeshSkin
+from drapery.render.scene import Scene
 
 Json = dict[str, Any]
 
@@ -55,7 +56,13 @@ class GltfDocument:
         return self.add("accessors", entry | bounds)
 
 
-def glb_bytes(parts: MeshParts, fps: float, camera: Camera | None, aspect: float) -> bytes:
+def glb_files(parts: MeshParts, scene: Scene, fps: float, name: str) -> dict[str, bytes]:
+    """The file of all frames: NAME.glb."""
+    width, height = scene.size
+    return {f"{name}.glb": _glb_bytes(parts, fps, scene.camera, width / height)}
+
+
+def _glb_bytes(parts: MeshParts, fps: float, camera: Camera | None, aspect: float) -> bytes:
     """The file's bytes. Moving parts are animated for one loop at `fps` frames/s; after the last
     frame comes the first one. Parts with bones are moved by a skeleton."""
     document = GltfDocument()

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from drapery.render.encode.png import png_bytes
 from drapery.render.export.parts import MeshParts
+from drapery.render.scene import Scene
 
 
-def obj_files(parts: MeshParts, name: str) -> dict[str, bytes]:
+def obj_files(parts: MeshParts, scene: Scene, fps: float, name: str) -> dict[str, bytes]:
     """The files of the first frame: NAME.obj, NAME.mtl and NAME_texture.png."""
     texture = f"{name}_texture"
     return {
