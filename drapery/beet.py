@@ -17,7 +17,7 @@ from beet import BannerPattern, Context, ErrorMessage, PluginOptions, configurab
 from beet.library.base import Pack
 
 from drapery.banner import PATTERNS
-from drapery.errors import DraperyError
+from drapery.errors import DraperyError, counted
 from drapery.settings import Settings
 from drapery.testing.case_check import check_cases, update_cases
 from drapery.testing.cases import Case, CaseFile
@@ -121,4 +121,6 @@ def _check_goldens(cases: tuple[Case, ...], opts: DraperyOptions, folder: Path) 
     if faults:
         page = write_report(report)
         lines = "; ".join(f"{o.name}: {o.fault}" for o in faults[:5])
-        raise ErrorMessage(f"{len(faults)} banner pictures changed ({lines}); see {page}")
+        raise ErrorMessage(
+            f"{counted(len(faults), 'banner picture')} changed ({lines}); see {page}"
+        )

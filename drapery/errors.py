@@ -1,6 +1,12 @@
 """Errors for users: one line with the input, the place in it and the remedy."""
 
 
+def counted(number: float, noun: str, plural: str = "") -> str:
+    """A number with its noun, such as `1 golden` or `2 goldens`. plural: one without an s."""
+    written = f"{number:g}" if isinstance(number, float) else f"{number}"
+    return f"{written} {noun if number == 1 else plural or f'{noun}s'}"
+
+
 class DraperyError(Exception):
     """A fault that the user can correct. Its message is one line; commands then exit with 2.
 

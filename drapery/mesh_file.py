@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.mesh import Array, Triangles
 from drapery.mesh_headers import CHECKS, MAX_PARTS, MeshLimits
 from drapery.user_files import read_user_file, shown_path
@@ -95,6 +95,7 @@ def check_triangles(positions: Array, triangles: Triangles, name: str) -> None:
     count = len(positions)
     if not len(triangles):
         raise OptionError(f"{name} has no triangles; give one with faces")
+    vertices = counted(count, "vertex", "vertices")
     low, high = int(triangles.min()), int(triangles.max())
     if low < 0 or high >= count:
         remedy = "they count from 0"
@@ -103,12 +104,12 @@ def check_triangles(positions: Array, triangles: Triangles, name: str) -> None:
         elif low < 0:
             remedy = "they count from 0, and none counts from the end"
         raise OptionError(
-            f"{name} has {count} vertices, and its triangles name {low} to {high}; {remedy}"
+            f"{name} has {vertices}, and its triangles name {low} to {high}; {remedy}"
         )
     wrong = ~np.isfinite(positions).all(axis=1)
     if wrong.any():
         raise OptionError(
-            f"{name} has {count} vertices, and the positions of {int(wrong.sum())} are no finite"
+            f"{name} has {vertices}, and the positions of {int(wrong.sum())} are no finite"
             f" numbers, the first that of vertex {int(wrong.argmax())}; positions must be finite"
         )
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.json_text import parse_json
 from drapery.picture_file import opened_picture
 
@@ -166,7 +166,7 @@ def checked_ply(data: bytes, limits: MeshLimits) -> bytes:
     limits.check_faces(counts.get("face", 0))
     total = sum(counts.values())
     if total > max(len(body), limits.vertices + limits.faces):
-        raise limits.refuse(f"counts {total} rows in {len(body)} bytes")
+        raise limits.refuse(f"counts {counted(total, 'row')} in {counted(len(body), 'byte')}")
     # The line of `end_header` ends with one line break, after which binary data begins.
     body = re.sub(rb"^[ \t]*(\r\n|\r|\n)", b"", body, count=1)
     if any(line.startswith("format ascii") for line in kept):
@@ -183,7 +183,7 @@ def checked_glb(data: bytes, limits: MeshLimits) -> bytes:
     if version != 2:
         raise limits.refuse(f"is of version {version} of glTF", "export it as glTF 2.0")
     if length > len(data):
-        raise limits.refuse(f"has {len(data)} of {length} bytes", "copy it again")
+        raise limits.refuse(f"has {len(data)} of {counted(length, 'byte')}", "copy it again")
     chunks = dict(reversed([*_chunks(data)]))
     try:
         tree = parse_json(chunks[b"JSON"].decode("utf-8"))

@@ -286,7 +286,7 @@ def test_ctrl_c_keeps_the_banners_of_a_mural(
     words = ("--mural", "3x1", "--layers", 1, "--effort", 0, "-o", out)
     stopped_at(2, monkeypatch)
     assert run(monkeypatch, path, *words) == 0
-    assert "1 of 3 banners are found, the others have one colour" in capsys.readouterr().err
+    assert "1 of 3 banners found, the others have one colour" in capsys.readouterr().err
     assert [len(one.banner.layers) for one in read_designs(str(out))] == [1, 0, 0]
 
 

@@ -149,7 +149,7 @@ def test_one_case_is_checked_by_its_name(drapery: Run, tmp_path: Path) -> None:
     )
     code, out, _ = drapery("golden", "check", file, "--report", report)
     assert code == 1 and "0 as before, 2 not" in out
-    assert "1 of 1 goldens written" in drapery("golden", "update", file, "--only", "second")[1]
+    assert "1 of 1 golden written" in drapery("golden", "update", file, "--only", "second")[1]
     code, out, _ = drapery("golden", "check", file, "--only", "second", "--report", report)
     assert code == 0 and out.startswith("1 as before, 0 not; see ")
     # What did not run keeps its entry.

@@ -50,7 +50,7 @@ def test_a_changed_texel_is_named_accepted_and_then_as_before(drapery: Run, pack
     decisions = {"accepted": [heart.name.partition(".")[0]], "rejected": []}
     Path("approvals.json").write_text(json.dumps(decisions), encoding="utf-8")
     code, out, _ = drapery("golden", "accept", "--only", "approvals.json")
-    assert (code, out) == (0, "wrote goldens/heart.png\n1 goldens written\n")
+    assert (code, out) == (0, "wrote goldens/heart.png\n1 golden written\n")
     assert "1 as before, 2 not" in drapery("golden", "check", "cases.toml")[1]
     assert "2 goldens written" in drapery("golden", "accept")[1]
     assert drapery("golden", "check", "cases.toml")[0] == 0

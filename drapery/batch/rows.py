@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from drapery import Banner
-from drapery.errors import DesignError, DraperyError, OptionError
+from drapery.errors import DesignError, DraperyError, OptionError, counted
 from drapery.json_text import JSONTextError, parse_json
 from drapery.user_files import read_user_file, reason, shown_path
 
@@ -88,7 +88,7 @@ def _csv(path: Path) -> Rows:
             if not names:
                 names = [cell.strip() for cell in cells]
             elif len(cells) > len(names):
-                message = f"{len(cells)} cells for {len(names)} columns; quote commas"
+                message = f"{len(cells)} cells for {counted(len(names), 'column')}; quote commas"
                 yield ManifestFault(place, message)
             elif any(cell.strip() for cell in cells):
                 filled = {n: c.strip() for n, c in zip(names, cells, strict=False) if c.strip()}

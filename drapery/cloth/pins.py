@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.mesh import Array
 
 PinName = Literal["none", "top", "corners", "three-corners", "four-corners"]
@@ -39,7 +39,9 @@ def pinned_particles(
     if callable(pins):
         mask = np.asarray(pins(rest))
         if mask.shape != (len(rest),) or mask.dtype != np.bool_:
-            raise OptionError(f"pins predicate must return {len(rest)} booleans, one a particle")
+            raise OptionError(
+                f"pins predicate must return {counted(len(rest), 'boolean')}, one a particle"
+            )
         chosen: NDArray[np.int64] = np.flatnonzero(mask)
         return chosen
     try:

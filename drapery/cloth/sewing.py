@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth.bending import Bending
 from drapery.cloth.cloth import Cloth
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 
 
 class Seam(NamedTuple):
@@ -92,7 +92,9 @@ def _pairs(
                 raise OptionError(f"seam {place} names particles outside 0 to {last}")
             sides.append(chosen + starts[cloth])
         if len(sides[0]) != len(sides[1]):
-            raise OptionError(f"seam {place} joins {len(sides[0])} to {len(sides[1])} particles")
+            raise OptionError(
+                f"seam {place} joins {len(sides[0])} to {counted(len(sides[1]), 'particle')}"
+            )
         pairs.append(np.stack(sides, axis=1))
     return np.concatenate(pairs)
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.checks import check_count, check_number, shown, vector3
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.mesh import Array
 
 CROSSWIND = (1.0, 0.75, 0.5)
@@ -120,7 +120,9 @@ def lower_winds(winds: Sequence[Wind], count: int) -> Gusts:
             phases[number] = wind.phases
             origins[number] = np.asarray(wind.origins, float).T.reshape(3, -1)
         except ValueError:
-            raise OptionError(f"wind phases and origins must fit {count} cloths") from None
+            raise OptionError(
+                f"wind phases and origins must fit {counted(count, 'cloth')}"
+            ) from None
     numbers = np.array([_numbers(wind) for wind in winds]).reshape(len(winds), 17)
     seeds = np.array([wind.seed & 0xFFFFFFFF for wind in winds], np.uint32)
     none = np.zeros((len(winds), 0))

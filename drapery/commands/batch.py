@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from drapery.commands.notices import bar_of, compile_notice, say
+from drapery.errors import counted
 
 if TYPE_CHECKING:
     from drapery.batch import BatchResult, Progress
@@ -82,9 +83,8 @@ def run(
     except ManifestError as error:
         for fault in error.faults:
             say(f"{manifest}: {fault}")
-        count = len(error.faults)
         raise OptionError(
-            f"{manifest}: {count} fault{'s' if count > 1 else ''}; nothing was drawn"
+            f"{manifest}: {counted(len(error.faults), 'fault')}; nothing was drawn"
         ) from None
     except LostError as error:
         say(str(error))

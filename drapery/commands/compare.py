@@ -11,6 +11,7 @@ from drapery.commands.compare_folders import REPORTS, folders_of
 from drapery.commands.compare_folders import compare as compare_folders
 from drapery.commands.notices import compile_notice
 from drapery.comparison import LIMIT_OPTIONS
+from drapery.errors import counted
 from drapery.option import Subject
 
 if TYPE_CHECKING:
@@ -82,7 +83,8 @@ def run(
     for pair in pairs:
         print(pair.line())
     for label, figures in costs.items():
-        print(f"{label}: {figures['quads']} quads, {figures['ms_per_frame']:.2f} ms a frame")
+        quads = counted(round(figures["quads"]), "quad")
+        print(f"{label}: {quads}, {figures['ms_per_frame']:.2f} ms a frame")
     for target in out or []:
         _write(target, pairs, costs)
     raise typer.Exit(0 if all(pair.difference.agrees for pair in pairs) else 1)
@@ -131,7 +133,7 @@ def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, f
     elif kind == "page":
         entries = [pair_entry(pair) for pair in pairs]
         summary = " ".join(
-            f"{label}: {c['quads']:.0f} quads, {c['ms_per_frame']:.2f} ms a frame."
+            f"{label}: {counted(round(c['quads']), 'quad')}, {c['ms_per_frame']:.2f} ms a frame."
             for label, c in costs.items()
         )
         write_text(target, html_report("Comparison", summary, entries))

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from drapery.commands.notices import compile_notice
+from drapery.errors import counted
 
 app = typer.Typer(help="Golden images from a TOML or YAML file of cases.", no_args_is_help=True)
 
@@ -76,7 +77,7 @@ def update(file: FileArgument, only: OnlyOption = None) -> None:
             print(f"{outcome.name}: {outcome.fault}", file=sys.stderr)
         elif outcome.written:
             print(f"wrote {outcome.name}")
-    print(f"{sum(o.written for o in outcomes)} of {len(outcomes)} goldens written")
+    print(f"{sum(o.written for o in outcomes)} of {counted(len(outcomes), 'golden')} written")
     raise typer.Exit(2 if any(o.fault for o in outcomes) else 0)
 
 
@@ -98,4 +99,4 @@ def accept(
     paths = list(accept_failures(report, None if only is None else read_approvals(only)))
     for path in paths:
         print(f"wrote {path.as_posix()}")
-    print(f"{len(paths)} goldens written")
+    print(f"{counted(len(paths), 'golden')} written")

@@ -9,6 +9,7 @@ import typer
 from drapery.commands import options as o
 from drapery.commands.garment import is_given
 from drapery.commands.notices import progress, say
+from drapery.errors import counted
 
 if TYPE_CHECKING:
     from drapery.match import Match, Matcher, Mural, PictureFace
@@ -267,7 +268,8 @@ def _matched_mural(
     except KeyboardInterrupt:
         if not found:
             raise
-        say(f"stopped; {len(found)} of {len(faces)} banners are found, the others have one colour")
+        count = f"{len(found)} of {counted(len(faces), 'banner')}"
+        say(f"stopped; {count} found, the others have one colour")
         for seen in faces[len(found) :]:
             found += matcher.match(seen.face, weights=seen.weights, layers=0, alternatives=1)
     return Mural(*size, tuple(one.banner for one in found))

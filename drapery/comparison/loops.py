@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from drapery.comparison.difference import Difference, box_around
 from drapery.comparison.ignored import ignored_pixels
 from drapery.comparison.metrics import measure
-from drapery.comparison.picture import Picture
+from drapery.comparison.picture import Picture, times
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.comparison.words import named_frames
+from drapery.errors import counted
 from drapery.picture_pixels import Channels
 
 
@@ -72,7 +73,7 @@ def _unlike(a: Picture, b: Picture) -> Iterator[str]:
         sizes = (f"{width}x{height}" for width, height in (a.size, b.size))
         yield f"the sizes {' and '.join(sizes)}"
     if len(a.frames) != len(b.frames):
-        yield f"{_count(len(a.frames))} and {_count(len(b.frames))}"
+        yield f"{counted(len(a.frames), 'frame')} and {counted(len(b.frames), 'frame')}"
     elif a.delays and b.delays:
         # A file holds the time of a frame as a fraction of small numbers.
         pairs = enumerate(zip(a.delays, b.delays, strict=True), 1)
@@ -84,15 +85,7 @@ def _unlike(a: Picture, b: Picture) -> Iterator[str]:
                 f" ({1000 * a.delays[first]:.4g} and {1000 * b.delays[first]:.4g} ms)"
             )
         if a.plays != b.plays:
-            yield f"played {_times(a.plays)} and {_times(b.plays)}"
-
-
-def _count(frames: int) -> str:
-    return f"{frames} frame{'s' if frames != 1 else ''}"
-
-
-def _times(plays: int) -> str:
-    return "for ever" if plays == 0 else "once" if plays == 1 else f"{plays} times"
+            yield f"played {times(a.plays)} and {times(b.plays)}"
 
 
 def _joined(found: list[Difference]) -> Difference:

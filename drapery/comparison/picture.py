@@ -12,7 +12,7 @@ import numpy as np
 from PIL import Image, ImageSequence
 
 from drapery.comparison.files import MAX_PIXELS, opened, picture_bytes
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.file_formats import READERS
 from drapery.picture_pixels import Channels, pixels_of, sixteen_bit_pixels
 from drapery.render import Animation, Frame, Pixels
@@ -42,13 +42,18 @@ class Picture:
         size = f"{self.size[0]}x{self.size[1]}"
         if not self.delays:
             return size
-        count = f"{size}, {len(self.frames)} frames"
+        count = f"{size}, {counted(len(self.frames), 'frame')}"
         rate = 1 / self.delays[0] if self.delays[0] else 0
         if all(math.isclose(delay, self.delays[0], rel_tol=1e-3) for delay in self.delays):
             count += f" at {round(rate, 4):g}/s"
         else:
             count += f" in {sum(self.delays):.4g} s"
-        return count if self.plays == 0 else f"{count}, played {self.plays} times"
+        return count if self.plays == 0 else f"{count}, played {times(self.plays)}"
+
+
+def times(plays: int) -> str:
+    """How often a loop plays, in words."""
+    return "for ever" if plays == 0 else "once" if plays == 1 else f"{plays} times"
 
 
 def as_picture(source: Any) -> Picture:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from drapery.comparison.difference import Difference
 from drapery.comparison.tolerance import Tolerance
+from drapery.errors import counted
 
 _MOST_NAMED = 8
 """The most frames that are named."""
@@ -65,11 +66,11 @@ def _pixels(difference: Difference, tolerance: Tolerance) -> list[str]:
     within = difference.changed - difference.beyond - difference.smoothed
     parts = []
     if difference.beyond or not (within or difference.smoothed):
-        parts.append(f"{_counted(difference.beyond)} {_verb(difference.beyond)}")
+        parts.append(f"{counted(difference.beyond, 'pixel')} {_verb(difference.beyond)}")
     if within:
-        parts.append(f"{_counted(within)} {_verb(within)} within the limits")
+        parts.append(f"{counted(within, 'pixel')} {_verb(within)} within the limits")
     if difference.smoothed:
-        parts.append(f"{_counted(difference.smoothed)} of smoothed edges")
+        parts.append(f"{counted(difference.smoothed, 'pixel')} of smoothed edges")
     limits = tolerance.limits()
     if limits and (within or difference.beyond):
         parts[-1] += f" ({', '.join(f'{name} {_shown(value)}' for name, value in limits.items())})"
@@ -86,10 +87,12 @@ def _hidden(difference: Difference) -> list[str]:
         return ["the same to the last bit"]
     parts = []
     if difference.hidden:
-        parts.append(f"the colour of {_counted(difference.hidden)} that cannot be seen differs")
+        parts.append(
+            f"the colour of {counted(difference.hidden, 'pixel')} that cannot be seen differs"
+        )
     if difference.ignored:
         verb = "is" if difference.ignored == 1 else "are"
-        parts.append(f"{_counted(difference.ignored)} {verb} ignored")
+        parts.append(f"{counted(difference.ignored, 'pixel')} {verb} ignored")
     return [f"the same to the eye; {', '.join(parts)}"]
 
 
@@ -104,10 +107,6 @@ def _measures(difference: Difference) -> list[str]:
     found = {"FLIP": difference.flip, "SSIM": difference.ssim, "CIEDE2000": difference.ciede2000}
     known = [f"{name} {value:.4g}" for name, value in found.items() if value is not None]
     return [", ".join(known)] if known else []
-
-
-def _counted(pixels: int) -> str:
-    return f"{pixels} pixel{'' if pixels == 1 else 's'}"
 
 
 def _verb(pixels: int) -> str:

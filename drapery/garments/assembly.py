@@ -11,7 +11,7 @@ from drapery.banner.names import shown
 from drapery.banner.packs import Packs
 from drapery.cloth import Cloth, PinPath, Seam, sew
 from drapery.cloth.sewing import sewn_particles
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.garments.model import NO_BONE, Garment, GarmentPin, GridPiece
 from drapery.garments.shapes import CutPiece, Particles, cut_pieces
 from drapery.garments.textures import texture_of
@@ -230,8 +230,8 @@ def _seam(
     (first, a), (second, b) = sides
     if len(a) != len(b):
         raise OptionError(
-            f"garment {garment.name}: seam of {join[0]} with {len(a)} particles and {join[1]} with"
-            f" {len(b)}; give both the same number"
+            f"garment {garment.name}: seam of {join[0]} with {counted(len(a), 'particle')} and"
+            f" {join[1]} with {len(b)}; give both the same number"
         )
     one, other = cut[first].start[a], cut[second].start[b]
     away = np.sqrt(((one[:, None] - other) ** 2).sum(axis=-1))

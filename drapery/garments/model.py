@@ -27,7 +27,7 @@ from pydantic_core import PydanticCustomError
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
 from drapery.cloth import FABRICS, Fabric
-from drapery.errors import DraperyError, OptionError
+from drapery.errors import DraperyError, OptionError, counted
 from drapery.garments.blends import POSE_ENDING, read_blend
 from drapery.garments.loading import load_tables
 from drapery.garments.profiles import is_profile_file
@@ -262,8 +262,8 @@ class StripPiece(GarmentPiece):
             raise ValueError("strip has both ends at one place; move one of them")
         if square**0.5 > self.length * (1 + 1e-9):
             raise ValueError(
-                f"strip is {self.length:g} texels long, its ends are {square**0.5:g} apart;"
-                " make it longer"
+                f"strip is {counted(self.length, 'texel')} long, its ends are {square**0.5:g}"
+                " apart; make it longer"
             )
         return self
 

@@ -11,7 +11,7 @@ from drapery.banner.formats.snbt import write_snbt
 from drapery.banner.formats.tree import names
 from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode
 from drapery.banner.packs import Packs
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.match.art import HEIGHT, WIDTH
 from drapery.match.picture import PITCH
 from drapery.pictures import face_pixels
@@ -38,7 +38,7 @@ class Mural:
         check_mural_size(self.across, self.down)
         if len(self.banners) != self.across * self.down:
             raise OptionError(
-                f"{len(self.banners)} banners do not fill {self.across} x {self.down}"
+                f"{counted(len(self.banners), 'banner')} cannot fill {self.across} x {self.down}"
             )
 
     def picture(self, packs: Packs, *, scale: int = 4) -> Frame:

@@ -7,7 +7,7 @@ import numpy as np
 
 from drapery.banner.packs import open_packs
 from drapery.cloth import Gravity, Wind
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.mesh import Array
 from drapery.render.scene import Scene
 from drapery.render.views import View, frame_points
@@ -69,7 +69,7 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     velocity = (0.25 * parameters.wind, 0.0, 0.97 * parameters.wind)
     forces = (Gravity(), Wind(velocity, gusts=0.5, seed=parameters.seed, period=LOOP))
     start = flags_at_rest(cloth, (BLOCK,))
-    labels = ("smooth", f"{parameters.steps} steps", "pixel-snap", "both")
+    labels = ("smooth", counted(parameters.steps, "step"), "pixel-snap", "both")
     for state in motion(cloth, clip, forces=forces, start=start, settle=2 * LOOP, step=1 / 60):
         smooth = Sheet(state.positions[0], lattice, SCALE, SCALE, FLAG_SIZE, FLAG_MAPPING)
         sheets = smooth, boards(smooth, steps=parameters.steps)

@@ -10,7 +10,7 @@ from drapery.banner.dyes import DYES
 from drapery.banner.loom import loom_steps
 from drapery.banner.packs import Packs
 from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
-from drapery.errors import OptionError, PackError
+from drapery.errors import OptionError, PackError, counted
 from drapery.pictures import face_pixels
 from drapery.render import Pixels
 from drapery.sheets.sheet import PictureSheet, SheetCell
@@ -37,7 +37,8 @@ def patterns_sheet(
         for pattern in patterns
         for dye in dyes
     )
-    title, names = f"{len(patterns)} patterns on {_words(base)}", tuple(map(_short, patterns))
+    title = f"{counted(len(patterns), 'pattern')} on {_words(base)}"
+    names = tuple(map(_short, patterns))
     if len(dyes) > 1:
         return PictureSheet(title, cells, len(dyes), tuple(map(_words, dyes)), names)
     return PictureSheet(f"{title}, in {_words(dyes[0])}", cells, min(11, len(cells)))

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from drapery import DesignError
+from drapery.errors import counted
 from drapery.studio.document import Document
 
 
@@ -187,4 +188,4 @@ def shown_name(name: str) -> str:
 
 def shown_bytes(count: int) -> str:
     """A size as text, for example `256 MiB`."""
-    return f"{count >> 20} MiB" if count >= 1 << 20 else f"{count} bytes"
+    return f"{count >> 20} MiB" if count >= 1 << 20 else counted(count, "byte")

@@ -21,7 +21,7 @@ from drapery.comparison import (
     measure,
     measure_pictures,
 )
-from drapery.errors import DraperyError
+from drapery.errors import DraperyError, counted
 from drapery.packs import Packs
 from drapery.render import Pixels, png_bytes
 
@@ -79,7 +79,7 @@ def _named_changes(before: list[LayerNote], after: list[LayerNote]) -> list[str]
         elif change:
             seen.append(change)
     more = len(seen) + len(hidden) - _MOST_NAMED
-    rest = [f"{more} more layer{'s' if more > 1 else ''} changed"] if more > 0 else []
+    rest = [counted(more, "more layer") + " changed"] if more > 0 else []
     return [*seen, *hidden][:_MOST_NAMED] + rest
 
 
@@ -133,9 +133,9 @@ def _face_change(old: Pixels | None, new: Pixels | None) -> str:
         return f"changed from {old.shape[1]}x{old.shape[0]} to {new.shape[1]}x{new.shape[0]} texels"
     for distance in range(1, MAX_SHIFT + 1):
         if any(_moved(old, new, down, right) for down, right in _ring(distance)):
-            return f"moved by {distance} texel{'s' if distance > 1 else ''}"
+            return f"moved by {counted(distance, 'texel')}"
     changed = measure(old, new).changed
-    return f"has {changed} changed texel{'s' if changed > 1 else ''}"
+    return f"has {counted(changed, 'changed texel')}"
 
 
 def _ring(distance: int) -> Iterator[tuple[int, int]]:

@@ -31,7 +31,7 @@ from drapery.comparison import (
     joined_panels,
     write_text,
 )
-from drapery.errors import OutputError
+from drapery.errors import OutputError, counted
 from drapery.render import Pixels, make_folder, png_bytes, replacing
 from drapery.testing.golden import decode, encode
 from drapery.testing.naming import ENDINGS
@@ -162,12 +162,11 @@ def markdown_report(folder: Path) -> str:
     failures = failures_in(folder)
     if not failures:
         return "All golden pictures are as before.\n"
-    plural = "s" if len(failures) > 1 else ""
     rows = [f"| {_cell(each.name)} | {_cell(each.line)} |" for each in failures[:_MOST_ROWS]]
     if len(failures) > _MOST_ROWS:
         rows.append(f"| and {len(failures) - _MOST_ROWS} more | |")
     head = [
-        f"**{len(failures)} golden picture{plural} changed.**",
+        f"**{counted(len(failures), 'golden picture')} changed.**",
         "",
         "| picture | what changed |",
     ]
@@ -279,7 +278,6 @@ def _page_of(failures: list[FailedPicture], folder: Path, root: Path | None) -> 
 
     here = files("drapery.testing")
     texts = {name: (here / f"report.{name}").read_text("utf-8") for name in ("html", "css", "js")}
-    plural = "s" if len(failures) > 1 else ""
     entries = [
         {
             "id": each.id,
@@ -294,7 +292,7 @@ def _page_of(failures: list[FailedPicture], folder: Path, root: Path | None) -> 
         Environment(autoescape=True)
         .from_string(texts["html"])
         .render(
-            summary=f"{len(failures)} picture{plural} not as expected.",
+            summary=f"{counted(len(failures), 'picture')} not as expected.",
             folder=shlex.quote(_relative(folder, root) or folder.name),
             style=texts["css"],
             script=texts["js"],

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import pytest
 
 from drapery.comparison import LIMIT_OPTIONS
-from drapery.errors import DraperyError
+from drapery.errors import DraperyError, counted
 
 if TYPE_CHECKING:
     from drapery import Banner
@@ -384,7 +384,7 @@ def pytest_terminal_summary(terminalreporter: Any, exitstatus: int, config: pyte
         return
     usage = config.stash[_USAGE]
     if usage.written:
-        terminalreporter.write_line(f"drapery: {_count(usage.written)} written")
+        terminalreporter.write_line(f"drapery: {counted(usage.written, 'golden')} written")
     _report_unused(terminalreporter, exitstatus, config)
     folder, page = _report_places(config)
     if config.stash.get(_STALE, False) or not folder.is_dir():
@@ -416,21 +416,18 @@ def _report_unused(terminalreporter: Any, exitstatus: int, config: pytest.Config
     if prune:
         for path in unused:
             path.unlink(missing_ok=True)
-        terminalreporter.write_line(f"drapery: {_count(len(unused))} deleted")
+        terminalreporter.write_line(f"drapery: {counted(len(unused), 'golden')} deleted")
     elif unused:
         verb = "is" if len(unused) == 1 else "are"
         terminalreporter.write_line(
-            f"drapery: {_count(len(unused))} {verb} named by no test; delete with --drapery-prune:"
+            f"drapery: {counted(len(unused), 'golden')} {verb} named by no test;"
+            " delete with --drapery-prune:"
         )
     shown = unused[:_MOST_LISTED]
     for path in shown:
         terminalreporter.write_line(f"  {path}")
     if len(unused) > len(shown):
         terminalreporter.write_line(f"  and {len(unused) - len(shown)} more")
-
-
-def _count(goldens: int) -> str:
-    return f"{goldens} golden" + ("s" if goldens != 1 else "")
 
 
 def _is_worker(config: pytest.Config) -> bool:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner import parse_banner
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.mesh import Mesh
 from drapery.packs import open_packs
 from drapery.pictures import animate, draw
@@ -73,6 +73,6 @@ def _check_mesh(name: str, mesh: Mesh) -> None:
     counts = Counter(map(tuple, edges.tolist()))
     if odd := [edge for edge, count in counts.items() if edge[0] != edge[1] and count % 2]:
         raise OptionError(
-            f"style {name}: its mesh has a hole: {len(odd)} edges have an odd number of triangles;"
-            " return a Sheet, whose thickness closes it, or close the mesh"
+            f"style {name}: its mesh has a hole: {counted(len(odd), 'edge')} with an odd"
+            " number of triangles; return a Sheet, whose thickness closes it, or close the mesh"
         )

@@ -27,7 +27,7 @@ from drapery.banner.formats.blocks import (
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.palettes import bits_for, longs_needed, unpack
 from drapery.banner.formats.tree import DataTree, is_banner_id
-from drapery.errors import DesignError
+from drapery.errors import DesignError, counted
 
 SECTION_BLOCKS = 4096
 LEAST_BITS = 4
@@ -83,7 +83,7 @@ def _index(states: dict[str, DataTree], count: int, number: int, where: str) -> 
     spanning = len(packed) == longs_needed(SECTION_BLOCKS, bits, spanning=True)
     if not spanning and len(packed) != longs_needed(SECTION_BLOCKS, bits, spanning=False):
         raise DesignError(
-            f"{where}: {len(packed)} longs do not make a section of {count} block states;"
-            " let the game save the chunk again"
+            f"{where}: {counted(len(packed), 'long')} cannot hold a section of"
+            f" {counted(count, 'block state')}; let the game save the chunk again"
         )
     return int(unpack(packed, bits, np.array([number]), spanning)[0])

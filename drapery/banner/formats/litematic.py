@@ -24,7 +24,7 @@ from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.palettes import bits_for, longs_needed, names_in_box, packed_pieces
 from drapery.banner.formats.tree import DataTree
 from drapery.banner.names import shown
-from drapery.errors import DesignError
+from drapery.errors import DesignError, counted
 
 NAME = "litematic"
 LEAST_BITS = 2
@@ -76,7 +76,7 @@ def _names(
     packed = longs(region.get("BlockStates"), where)
     if len(packed) < longs_needed(count, bits, spanning=True):
         raise DesignError(
-            f"{where}: BlockStates holds fewer than {count} blocks; save the file again"
+            f"{where}: BlockStates holds fewer than {counted(count, 'block')}; save the file again"
         )
     pieces = packed_pieces(packed, bits, count)
     return names_in_box(pieces, dict(enumerate(states)), box, places, where)

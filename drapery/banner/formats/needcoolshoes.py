@@ -17,6 +17,7 @@ from drapery.banner.formats.urls import (
     site_address,
 )
 from drapery.banner.patterns import BY_CODE, PATTERNS
+from drapery.errors import counted
 
 NAME = "needcoolshoes"
 TITLE = "NeedCoolShoes', ncrs.skin's or skinmc's address"
@@ -50,7 +51,8 @@ def parse(text: str) -> Banner:
     text = text.strip()
     code = _code(text)
     if len(code) % 2:
-        refuse(SITE, text, f"the code has {len(code)} characters, not an even number", REMEDY)
+        have = counted(len(code), "character")
+        refuse(SITE, text, f"the code has {have}, not an even number", REMEDY)
     if len(code) > 2 + 2 * MAX_LAYERS:
         refuse(SITE, text, f"the code has {len(code) // 2 - 1} layers, over {MAX_LAYERS}", REMEDY)
     layers = tuple(_layer(text, code, place) for place in range(2, len(code), 2))

@@ -18,7 +18,7 @@ from drapery.banner.formats.compression import check_size, inflate
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.lz4 import unlz4
 from drapery.banner.formats.nbt import WORDS, read_nbt
-from drapery.errors import DesignError
+from drapery.errors import DesignError, counted
 from drapery.user_files import read_user_file
 
 NAME = "region"
@@ -108,7 +108,9 @@ def _listed(head: bytes, where: str, on_error: OnError) -> list[int]:
     if len(head) < SECTOR:
         # The game leaves empty region files where it did not finish to save.
         if head:
-            on_error(DesignError(f"{where}: cut off: {len(head)} bytes are not a region file"))
+            on_error(
+                DesignError(f"{where}: cut off: {counted(len(head), 'byte')} cannot hold a region")
+            )
         return []
     return [number for number in range(SIDE * SIDE) if _place(head, number) != (0, 0)]
 

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from drapery.errors import counted
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -24,7 +26,7 @@ class Rows:
         return self.count
 
     def __repr__(self) -> str:
-        return f"{self.count} compounds of numbers"
+        return f"{counted(self.count, 'compound')} of numbers"
 
     def column(self, name: str) -> "NDArray[Any]":
         """The numbers of a field, shape [count, how many]; empty if there is no such field."""

@@ -14,7 +14,7 @@ from dataclasses import replace
 from drapery.banner.design import Banner
 from drapery.banner.formats import own_json
 from drapery.banner.names import shown
-from drapery.errors import DesignError
+from drapery.errors import DesignError, counted
 
 NAME = "studio"
 TITLE = "the address of a page of Drapery Studio"
@@ -75,7 +75,7 @@ def hidden_layers(tree: dict[str, object], count: int) -> frozenset[int]:
     if not isinstance(hidden, list) or not all(
         type(place) is int and 0 <= place < count for place in hidden
     ):
-        raise DesignError(f"hidden: not a list of places of the {count} layers; {_REMEDY}")
+        raise DesignError(f"hidden: not a list of places of {counted(count, 'layer')}; {_REMEDY}")
     return frozenset(hidden)
 
 

@@ -16,7 +16,7 @@ from drapery.banner.packs.png import Texels
 from drapery.banner.packs.stack import PackFile, Packs
 from drapery.banner.packs.texture_ids import full_id, split_id
 from drapery.banner.packs.versions import last_before
-from drapery.errors import OptionError, PackError
+from drapery.errors import OptionError, PackError, counted
 
 LAYERS = (
     *("humanoid", "humanoid_leggings", "humanoid_baby", "wings"),
@@ -126,7 +126,7 @@ def palette_fault(colours: int, tones: int) -> str:
     if colours == tones:
         return ""
     return (
-        f"its palette has {colours} colours, the key has {tones};"
+        f"its palette has {counted(colours, 'colour')}, the key has {tones};"
         " give a pack with palettes of one length"
     )
 

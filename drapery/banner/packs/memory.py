@@ -10,7 +10,7 @@ from drapery.banner.packs.checks import within
 from drapery.banner.packs.png import MAX_PIXELS, MAX_SIDE, Texels
 from drapery.banner.packs.texture_ids import full_id, split_id, texture_file
 from drapery.banner.packs.textures import MAX_SHEET
-from drapery.errors import PackError
+from drapery.errors import PackError, counted
 
 ImageArray = NDArray[np.uint8] | NDArray[np.bool_]
 """Texels [H, W, 4], sRGB with straight alpha, or a mask [H, W]: white with this alpha."""
@@ -56,7 +56,7 @@ class MemoryPack:
             self._contents[texture_file(full_id(name, f"{label}: texture"))] = _png(texels)
 
     def __repr__(self) -> str:
-        return f"<MemoryPack {self._label!r} of {len(self._contents)} files>"
+        return f"<MemoryPack {self._label!r} of {counted(len(self._contents), 'file')}>"
 
     @property
     def label(self) -> str:

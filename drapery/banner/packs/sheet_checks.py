@@ -8,7 +8,7 @@ from drapery.banner.packs.masks import looks_like_mask
 from drapery.banner.packs.png import png_size
 from drapery.banner.packs.stack import Kind, PackFile, Packs, sheet_name
 from drapery.banner.sprites import FLAG_REGIONS, SHIELD_REGIONS
-from drapery.errors import PackError
+from drapery.errors import PackError, counted
 
 _PLACES = {
     "banner": ("flag", (FLAG_REGIONS["front"], FLAG_REGIONS["back"])),
@@ -42,7 +42,7 @@ class Budget:
 
     def unchecked(self) -> tuple[str, ...]:
         """The sheets that were not read, and how many other textures."""
-        others = [f"{self._others} other textures"] if self._others else []
+        others = [counted(self._others, "other texture")] if self._others else []
         return (*self._sheets, *others)
 
     def _spend(self, cost: int) -> bool:

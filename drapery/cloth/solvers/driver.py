@@ -23,7 +23,7 @@ from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import all_finite, check_state, check_step
 from drapery.cloth.state import State
 from drapery.cloth.wind import Gusts
-from drapery.errors import OptionError
+from drapery.errors import OptionError, counted
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
@@ -202,7 +202,7 @@ def _advance(
     lanes.run_blocks(work, count if solver_state.alone else batch.x.shape[1], batch.width, threads)
     if not all_finite(batch.new_x):
         raise OptionError(
-            f"positions became infinite within {steps} steps of {solver_state.dt:g} s; "
+            f"positions became infinite within {counted(steps, 'step')} of {solver_state.dt:g} s; "
             "use a smaller dt, weaker forces or another solver"
         )
     time = state.time + steps * solver_state.dt

@@ -39,6 +39,7 @@ from drapery.cloth.solvers.driver import (
     load_block,
     store_block,
 )
+from drapery.errors import counted
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
@@ -110,9 +111,9 @@ class SolverImplicit(KernelSolver):
 
     def warn_unsolved(self, residual: float) -> None:
         warnings.warn(
-            f"SolverImplicit stopped after {self.iterations} iterations with a residual of "
-            f"{residual * self.tolerance:.2g} (tolerance {self.tolerance:g}); use a smaller dt, "
-            "more substeps, more iterations or softer springs",
+            f"SolverImplicit stopped after {counted(self.iterations, 'iteration')} with a residual"
+            f" of {residual * self.tolerance:.2g} (tolerance {self.tolerance:g}); use a smaller"
+            " dt, more substeps, more iterations or softer springs",
             stacklevel=3,
         )
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from nicegui import ui
 
 from drapery import DraperyError
+from drapery.errors import counted
 from drapery.studio.exports import Export, stem_of
 from drapery.studio.notices import show_notice
 from drapery.studio.panels.fields import copy_field
@@ -131,7 +132,7 @@ class _ExportForm:
 def shown_size(count: int) -> str:
     """A size as file managers show it, for example `12.3 kB`."""
     if count < 1000:
-        return f"{count} bytes"
+        return counted(count, "byte")
     return f"{count / 1000:.1f} kB" if count < 1_000_000 else f"{count / 1_000_000:.1f} MB"
 
 

@@ -14,7 +14,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from drapery.errors import DraperyError
+from drapery.errors import DraperyError, counted
 from drapery.user_files import reason
 from drapery.web.wasm.image import WasmBuildError
 from drapery.web.wasm.module import module_places
@@ -69,7 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         print(f"error: {path}: {reason(error)}", file=sys.stderr)
         return 1
-    print(f"{path}: {path.stat().st_size} bytes")
+    print(f"{path}: {counted(path.stat().st_size, 'byte')}")
     return 0
 
 
