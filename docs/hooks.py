@@ -13,6 +13,7 @@ from typing import Any
 import typer.main
 
 from drapery.commands.app import command_line
+from drapery.file_formats import FORMATS, KIND_NAMES, MAX_FPS
 from drapery.option import Option
 from drapery.packs import PACK_FORMATS
 from drapery.player_settings import PLAYER_OPTIONS
@@ -21,6 +22,7 @@ from drapery.web.wasm.module import module_places
 
 ROOT = Path(__file__).resolve().parent.parent
 GALLERY = "live-gallery-page.html"
+ALPHA = {"full": "half too", "bit": "whole only", "none": "none"}
 AUDIENCES = {"anyone": "yes", "local": "no", "python": "Python only"}
 pages: dict[str, tuple[str, str]] = {}
 """The title and the Markdown of each page, by its path."""
@@ -168,6 +170,32 @@ def _pack_formats() -> str:
     return "\n".join(lines) + "\n"
 
 
+def _file_formats() -> str:
+    """A table of the formats of files that are written, and of those that are only read."""
+    lines = [
+        "| format | ending | holds | transparency | limits | needs | contents |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for each in FORMATS:
+        if not each.kinds:
+            continue
+        pixels = {"still", "loop"}.intersection(each.kinds)
+        limits = [f"{each.max_side} pixels a side"] if each.max_side else []
+        limits += [f"{each.max_fps} frames/s"] if each.max_fps < MAX_FPS else []
+        cells = (
+            each.name,
+            ", ".join(f"`{ending}`" for ending in each.endings),
+            ", ".join(KIND_NAMES[kind] for kind in each.kinds),
+            ALPHA[each.alpha] if pixels else "",
+            ", ".join(limits),
+            f"`{each.extra}`" if each.extra else "",
+            each.about,
+        )
+        lines.append(f"| {' | '.join(map(_cell, cells))} |")
+    read = [f"{each.name} (`{'`, `'.join(each.endings)}`)" for each in FORMATS if not each.kinds]
+    return "\n".join(lines) + f"\n\nAlso read, where pictures are compared: {', '.join(read)}.\n"
+
+
 def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
@@ -186,4 +214,5 @@ TABLES: dict[str, Callable[[], str]] = {
     "garments": _garments,
     "live-gallery": _live_gallery,
     "pack-formats": _pack_formats,
+    "file-formats": _file_formats,
 }

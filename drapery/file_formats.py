@@ -10,6 +10,9 @@ from drapery.errors import OptionError
 Kind: TypeAlias = Literal["still", "loop", "model", "page", "data"]
 """What a file holds."""
 
+MAX_FPS = 1000
+"""The most frames/s of a format without a limit of its own."""
+
 KIND_NAMES: dict[Kind, str] = {
     "still": "picture",
     "loop": "animation",
@@ -51,7 +54,7 @@ class FileFormat:
     matte: bool = False
     moving: bool = False
     max_side: int = 0
-    max_fps: float = 1000
+    max_fps: float = MAX_FPS
     extra: str = ""
     writer: str = ""
     reader: str = ""
@@ -98,6 +101,12 @@ FORMATS = (
         writer="encode.gif.write_gif",
         reader="GIF",
         about="up to 255 colours are exact",
+    ),
+    FileFormat(
+        *("TIFF", (".tif", ".tiff"), ("still",), None, "image/tiff"),
+        writer="encode.tiff.write_tiff",
+        reader="TIFF",
+        about="without loss; for print",
     ),
     FileFormat(
         *("MP4", (".mp4",), ("loop",), None, "video/mp4"),
@@ -164,7 +173,6 @@ FORMATS = (
     ),
     FileFormat("JPEG", (".jpg", ".jpeg"), media_type="image/jpeg", reader="JPEG"),
     FileFormat("BMP", (".bmp",), media_type="image/bmp", reader="BMP"),
-    FileFormat("TIFF", (".tif", ".tiff"), media_type="image/tiff", reader="TIFF"),
 )
 """All formats. To add one, write its row and the function that `writer` names."""
 

@@ -21,9 +21,11 @@ from drapery import Banner, animate, draw
 from drapery.batch.manifest import PictureRequest
 from drapery.batch.pool import JobLimits
 from drapery.batch.warmup import warm_up
+from drapery.comparison import read_picture
 from drapery.errors import OptionError
+from drapery.file_formats import FileFormat, formats_of
 from drapery.garments import find_garment
-from drapery.serve.app import make_app
+from drapery.serve.app import SERVED, make_app
 from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import MAX_CLIENTS, RateLimiter
 from drapery.serve.request_params import (
@@ -156,6 +158,20 @@ def test_a_bad_address_is_refused_with_its_reason(client: TestClient, query: str
     assert all("\n" not in reason for reason in got.json()["detail"])
 
 
+@pytest.mark.parametrize("format", SERVED, ids=lambda each: each.name)
+def test_each_format_is_served(client: TestClient, format: FileFormat, tmp_path: Path) -> None:
+    kinds = dict.fromkeys((format.kind(timed=False), format.kind()))
+    for kind in kinds:
+        times = "&seconds=0.2&fps=10" if kind == "loop" else ""
+        got = client.get(f"/banner{format.ending}?design=red&{SMALL}{times}")
+        assert (got.status_code, got.headers["content-type"]) == (200, format.media_type), got.text
+        (tmp_path / f"a{format.ending}").write_bytes(got.content)
+        frames = read_picture(tmp_path / f"a{format.ending}").frames
+        assert len(frames) == (2 if kind == "loop" else 1)
+    if "loop" not in kinds:
+        assert client.get(f"/banner{format.ending}?design=red&seconds=1").status_code == 422
+
+
 def test_loops_have_limits_of_their_own(client: TestClient) -> None:
     for query in ("seconds=11", "fps=31", "seconds=x", "seconds=nan", "size=1024x1024&seconds=9"):
         assert client.get(f"/banner.gif?design=red&{query}").status_code == 422
@@ -164,7 +180,10 @@ def test_loops_have_limits_of_their_own(client: TestClient) -> None:
 def test_the_api_describes_itself(client: TestClient) -> None:
     api = client.get("/openapi.json").json()
     pictures = {
-        f"/{name}{end}" for name in ("banner", "garment", "player") for end in (".png", ".gif")
+        f"/{name}{each.ending}"
+        for name in ("banner", "garment", "player")
+        for each in formats_of("still", "loop")
+        if each.single and not each.extra
     }
     assert set(api["paths"]) == pictures | {"/metrics", "/healthz", "/readyz"}
     taken = {p["name"] for p in api["paths"]["/garment.png"]["get"]["parameters"]}

@@ -69,7 +69,7 @@ def test_a_png_that_is_written_quickly_comes_back_exactly(size: tuple[int, int])
             assert data == quick_png_bytes(image.copy())
 
 
-@pytest.mark.parametrize("name", ["a.png", "a.apng", "a.webp"])
+@pytest.mark.parametrize("name", ["a.png", "a.apng", "a.webp", "a.tif"])
 def test_a_still_comes_back_exactly(tmp_path: Path, name: str) -> None:
     frame = noise(1)[0]
     save_frame(frame, tmp_path / name)

@@ -69,7 +69,7 @@ def run_batch(
         mappings of option names to values. A row's `design` is a text or a `Banner`.
     out: a folder, or an address that fsspec knows, such as `s3://bucket/folder`.
     defaults: options of all rows that do not set them.
-    format: png, webp, gif, apng, mp4 or webm, for rows that name no file.
+    format: the ending of rows that name no file, without its dot.
     workers: processes on this machine; None is one for each core.
     scheduler: None for processes of this machine, `local` for a Dask cluster on this machine, or
         the address of a Dask scheduler, such as `tcp://host:8786`.

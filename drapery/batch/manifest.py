@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from drapery import Banner
 from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
+from drapery.file_formats import FileFormat, formats_of, known_format
 from drapery.option import Option, Subject, shown
 from drapery.options import check_options, one_line, unknown_names
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
@@ -22,10 +23,9 @@ if TYPE_CHECKING:
     from drapery.garments import Garment
 
 MAX_JOBS = 1_000_000
-STILLS = ("png",)
-EITHER = ("webp",)
-ANIMATIONS = ("gif", "apng", "mp4", "webm")
-ENDINGS = (*STILLS, *EITHER, *ANIMATIONS)
+ENDINGS = tuple(
+    ending[1:] for each in formats_of("still", "loop") if each.single for ending in each.endings
+)
 TEXTS = ("design", "garment", "name", "out")
 """The fields of a row that are texts; the others are options."""
 FILE_COLUMNS = ("garment", "skin", "cape", "wear", "motion")
@@ -342,7 +342,7 @@ def _out(fields: RowFields, row: ManifestRow, number: int, ending: str, faults: 
     else:
         out = f"{number:05d}.{ending}"
     fault = _name_fault(out)
-    if fault is None and (_ending(out) not in ENDINGS or out.endswith(".sheet.png")):
+    if fault is None and _format_of(out) is None:
         fault = f"{out}: the ending is one of {', '.join(f'.{e}' for e in ENDINGS)}"
     if fault is not None:
         faults.append(fault)
@@ -364,8 +364,10 @@ def _name_fault(out: str) -> str | None:
     return None
 
 
-def _ending(out: str) -> str:
-    return out.rpartition(".")[2].lower() if "." in out else ""
+def _format_of(out: str) -> FileFormat | None:
+    """The format of an output; None for what is no single file with a picture."""
+    found = known_format(out, "still", "loop")
+    return found if found is not None and found.single else None
 
 
 def _slug(where: str) -> str:
@@ -373,11 +375,12 @@ def _slug(where: str) -> str:
 
 
 def _times(out: str, fields: RowFields, faults: list[str]) -> tuple[float | None, float | None]:
-    """Length and rate; a WebP is a still unless one of them is given."""
+    """Length and rate; None for a still, which some formats hold unless one of them is given."""
     from drapery.settings import frame_count
 
     given = fields.seconds is not None or fields.fps is not None
-    if _ending(out) in STILLS or (_ending(out) in EITHER and not given):
+    format = _format_of(out)
+    if format is not None and format.kind(timed=given) == "still":
         return None, None
     seconds = LOOP_OPTIONS["seconds"].default if fields.seconds is None else fields.seconds
     fps = LOOP_OPTIONS["fps"].default if fields.fps is None else fields.fps

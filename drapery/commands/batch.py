@@ -31,7 +31,7 @@ def run(
         typer.Option("-o", "--out", metavar="DIR", help="A folder, or an address: s3://bucket/x."),
     ],
     format: Annotated[
-        str, typer.Option(help="png, webp, gif, apng, mp4 or webm, for jobs that name no file.")
+        str, typer.Option(help="The ending of jobs that name no file: png, or another.")
     ] = "png",
     default: Annotated[
         list[str] | None,

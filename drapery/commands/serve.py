@@ -42,7 +42,7 @@ def run(
     ] = None,
 ) -> None:
     """Answer /banner.png?design=…, /garment.png?name=… and /player.png?skin=…, and the same with
-    .gif; /openapi.json lists the parameters."""
+    .gif and other endings; /openapi.json lists them and the parameters."""
     import os
 
     from drapery.errors import BackendError

@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 from fastapi import FastAPI, Request, Response
 from fastapi.responses import JSONResponse
@@ -26,6 +26,7 @@ from drapery.batch.keys import DigestCache, code_version
 from drapery.batch.pool import JobLimits, ProcessPool
 from drapery.batch.stores import LocalStore
 from drapery.errors import DraperyError, OptionError
+from drapery.file_formats import FileFormat, Kind, formats_of
 from drapery.options import one_line
 from drapery.serve.job_queue import BusyError, JobQueue, Unavailable
 from drapery.serve.picture_cache import PictureCache
@@ -40,15 +41,17 @@ from drapery.serve.request_params import (
 )
 from drapery.serve.uploads import MAX_UPLOAD, SkinUploads
 
-Ending: TypeAlias = Literal[".png", ".gif"]
-MEDIA_TYPES: dict[Ending, str] = {".png": "image/png", ".gif": "image/gif"}
+SERVED = tuple(each for each in formats_of("still", "loop") if each.single and not each.extra)
+"""The formats of answers."""
 CACHE_CONTROL = "public, max-age=86400"
 WORKER_RESTARTS = RetryPolicy(limit=math.inf, pause=0.25, longest=30.0)
 """Workers that fail to start are started again without a limit: memory may be free later."""
-SUMMARIES: dict[Ending, str] = {
-    ".png": "A {} as one picture.",
-    ".gif": "A {} in the wind, as a seamless loop.",
+SUMMARIES: dict[tuple[Kind, Kind], str] = {
+    ("still", "still"): "A {} as one picture.",
+    ("loop", "loop"): "A {} in the wind, as a seamless loop.",
+    ("still", "loop"): "A {} as one picture, or as a seamless loop if seconds or fps are given.",
 }
+"""By what an answer shows without and with a length."""
 SENT = " The body is its skin, a PNG file."
 CLOSED_REQUEST = 499
 """The status that metrics count for a client that disconnected; it is not sent."""
@@ -113,7 +116,7 @@ class PictureService:
         code_version()  # cache the result before the first request
         self.queue: JobQueue[bytes | JobResult] = JobQueue(pool, self._finish, waiting)
 
-    async def answer(self, request: Request, subject: Subject, ending: Ending) -> Response:
+    async def answer(self, request: Request, subject: Subject, format: FileFormat) -> Response:
         """The response to a request: a picture, or an error that states the reason."""
         end = time.monotonic() + self.deadline
         pause = self.rates.wait(request.client.host if request.client else "")
@@ -130,7 +133,7 @@ class PictureService:
                 return body
             sent = body
         # Use a thread, so that a long design does not block other requests.
-        job = await run_in_threadpool(self._job, query, subject, ending, sent)
+        job = await run_in_threadpool(self._job, query, subject, format.ending, sent)
         if isinstance(job, list):
             return _refusal(422, job)
         headers = {"ETag": f'"{job.key}"', "Cache-Control": CACHE_CONTROL}
@@ -144,7 +147,7 @@ class PictureService:
             data = drawn
         else:
             self.metrics.cache_hits.inc()
-        return Response(data, media_type=MEDIA_TYPES[ending], headers=headers)
+        return Response(data, media_type=format.media_type, headers=headers)
 
     async def _body(self, request: Request, end: float) -> bytes | Response:
         """What a client sends until a time, or why it is refused."""
@@ -159,7 +162,7 @@ class PictureService:
         return body or _refusal(422, ["the body is empty; send the PNG file of a skin"])
 
     def _job(
-        self, query: list[tuple[str, str]], subject: Subject, ending: Ending, sent: bytes
+        self, query: list[tuple[str, str]], subject: Subject, ending: str, sent: bytes
     ) -> Job | list[str]:
         """The job of a query, whose key is its file name, or the errors of the query.
 
@@ -266,8 +269,8 @@ def make_app(
     )
     app.add_middleware(CountRequests, metrics=metrics)
     for subject in SUBJECTS:
-        for ending in MEDIA_TYPES:
-            _add_picture(app, subject, ending, chosen)
+        for format in SERVED:
+            _add_picture(app, subject, format, chosen)
     _add_metrics(app, metrics)
     _add_health(app)
     return app
@@ -302,25 +305,26 @@ def _copied(pictures: Mapping[str, Path], folder: Path) -> dict[str, Path]:
     }
 
 
-def _add_picture(app: FastAPI, subject: Subject, ending: Ending, config: ServiceConfig) -> None:
+def _add_picture(app: FastAPI, subject: Subject, format: FileFormat, config: ServiceConfig) -> None:
     async def handler(request: Request) -> Response:
         service: PictureService = request.app.state.service
-        return await service.answer(request, subject, ending)
+        return await service.answer(request, subject, format)
 
-    described = parameters(ending == ".gif", config.limits, subject)
+    described = parameters(format.kind() == "loop", config.limits, subject)
+    summary = SUMMARIES[format.kind(timed=False), format.kind()].format(subject)
     for method in ("GET", "POST") if subject == "player" else ("GET",):
         extra: dict[str, Any] = {"parameters": described}
         if method == "POST":
             skin = {"schema": {"type": "string", "format": "binary"}}
             extra["requestBody"] = {"content": {"image/png": skin}, "required": True}
         app.add_api_route(
-            f"/{subject}{ending}",
+            f"/{subject}{format.ending}",
             handler,
             methods=[method],
-            summary=SUMMARIES[ending].format(subject) + SENT * (method == "POST"),
+            summary=summary + SENT * (method == "POST"),
             response_class=Response,
-            operation_id=f"{subject}_{ending[1:]}" + "_sent" * (method == "POST"),
-            responses=_responses(MEDIA_TYPES[ending]),
+            operation_id=f"{subject}_{format.ending[1:]}" + "_sent" * (method == "POST"),
+            responses=_responses(format.media_type),
             openapi_extra=extra,
         )
 
@@ -371,7 +375,7 @@ def _add_health(app: FastAPI) -> None:
 
 COUNTED = frozenset(
     {
-        *(f"/{subject}{ending}" for subject in SUBJECTS for ending in MEDIA_TYPES),
+        *(f"/{subject}{format.ending}" for subject in SUBJECTS for format in SERVED),
         *("/metrics", "/healthz", "/readyz"),
     }
 )

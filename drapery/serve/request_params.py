@@ -9,6 +9,7 @@ from urllib.parse import parse_qsl
 
 from drapery.batch.manifest import PictureRequest
 from drapery.errors import DraperyError, OptionError
+from drapery.file_formats import FileFormat, format_of
 from drapery.option import Option, shown, within
 from drapery.option import Subject as Drawn
 from drapery.options import check_options, one_line, unknown
@@ -168,8 +169,8 @@ def read_request(
 ) -> PictureRequest | list[str]:
     """The request of a query, or the errors in the query, one line each.
 
-    query: names and values from the address. ending: `.png` or `.gif`. subject: what it shows.
-    skin: a file that the client sent, for a player.
+    query: names and values from the address. ending: of a format that is served.
+    subject: what it shows. skin: a file that the client sent, for a player.
     """
     faults = _faults(query, ending, subject)
     values = dict(query)
@@ -200,9 +201,13 @@ def read_request(
         return ["a value of the query cannot be used; correct it"]
 
 
+def _format(ending: str) -> FileFormat:
+    return format_of("picture" + ending, "still", "loop")
+
+
 def _faults(query: Sequence[tuple[str, str]], ending: str, subject: Subject) -> list[str]:
     """The errors in the names of a query."""
-    loop = tuple(LOOP_OPTIONS) if ending == ".gif" else ()
+    loop = tuple(LOOP_OPTIONS) if _format(ending).kind() == "loop" else ()
     known = frozenset({*SUBJECTS[subject], *_player_options(subject), *options_of(subject), *loop})
     names = [name for name, _ in query]
     strange = [name for name in dict.fromkeys(names) if name not in known]
@@ -291,7 +296,9 @@ def _request(
     ending: str,
     limits: PictureLimits,
 ) -> PictureRequest:
-    seconds, fps = _times(values, limits) if ending == ".gif" else (None, None)
+    timed = any(name in values for name in LOOP_OPTIONS)
+    is_loop = _format(ending).kind(timed=timed) == "loop"
+    seconds, fps = _times(values, limits) if is_loop else (None, None)
     frames = 1 if seconds is None or fps is None else round(seconds * fps)
     _check_size(settings, frames, limits)
     return PictureRequest("address", "picture" + ending, banner, settings, seconds, fps)

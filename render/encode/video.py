@@ -17,38 +17,43 @@ from drapery.render.pixels import HasPixels, Pixels
 WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1
 # A fixed number of threads, since the output of the encoders depends on it.
-CODECS = {
-    "mp4": ("libx264", {"crf": "14", "preset": "medium", "tune": "animation"}),
-    "webm": ("libvpx-vp9", {"crf": "16", "b": "0", "deadline": "good", "cpu-used": "4"}),
-}
+X264 = {"crf": "14", "preset": "medium", "tune": "animation"}
+VP9 = {"crf": "16", "b": "0", "deadline": "good", "cpu-used": "4"}
 
 
 def write_mp4(
     path: Path, frames: Iterable[HasPixels], fps: float | None, matte: Matte | None
 ) -> None:
     """An MP4. The background is the matte, or white. Raises BackendError if PyAV is missing."""
-    _write_video(path, "mp4", frames, fps or 1, matte)
+    options = {**X264, "x264-params": "asm=AVX2"} if _has_avx512() else X264
+    _write_video(path, "mp4", "libx264", options, frames, fps or 1, matte or WHITE)
 
 
 def write_webm(
     path: Path, frames: Iterable[HasPixels], fps: float | None, matte: Matte | None
 ) -> None:
     """A WebM; it has alpha without a matte. Raises BackendError if PyAV is missing."""
-    _write_video(path, "webm", frames, fps or 1, matte)
+    _write_video(path, "webm", "libvpx-vp9", VP9, frames, fps or 1, matte)
 
 
 def _write_video(
-    path: Path, kind: str, frames: Iterable[HasPixels], fps: float, matte: Matte | None
+    path: Path,
+    muxer: str,
+    codec: str,
+    options: dict[str, str],
+    frames: Iterable[HasPixels],
+    fps: float,
+    matte: Matte | None,
 ) -> None:
-    """Write a video. Odd sizes grow by repeating the last row or column."""
+    """Write a video, which has alpha without a matte if its first frame has.
+
+    Odd sizes grow by repeating the last row or column.
+    """
     av = _load_av()
     first, frames = _peek(frames)
-    alpha = kind == "webm" and matte is None and bool((first.pixels[..., 3] < 255).any())
-    codec, options = CODECS[kind]
-    if kind == "mp4" and _has_avx512():
-        options = {**options, "x264-params": "asm=AVX2"}
+    alpha = matte is None and bool((first.pixels[..., 3] < 255).any())
     try:
-        with av.open(str(path), "w", format=kind, options={"fflags": "+bitexact"}) as container:
+        with av.open(str(path), "w", format=muxer, options={"fflags": "+bitexact"}) as container:
             stream = container.add_stream(codec, Fraction(fps).limit_denominator(1001), options)
             _describe(stream, first.pixels, "yuva420p" if alpha else "yuv420p")
             convert = partial(_video_frame, av, stream.pix_fmt, None if alpha else matte or WHITE)
