@@ -41,6 +41,7 @@ _HIDDEN: Mapping[str, frozenset[Effect]] = {
 _CALLED = {
     "item": "placement item",
     "banner": "a banner",
+    "shield": "a shield",
     "garment": "a garment",
     "player": "a player",
     "still": "a still picture",

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from drapery.errors import OptionError
-from drapery.settings import NAMED_OPTIONS, Settings, check_used
+from drapery.option import Subject
+from drapery.settings import NAMED_OPTIONS, Settings, settled
 
 NAMES = frozenset(NAMED_OPTIONS)
 MAX_HINTS = 8
@@ -34,8 +35,9 @@ def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str
     if faults:
         return faults
     try:
-        check_used(values)
-        return Settings(**values)
+        settings = Settings(**values)
+        # A kind that only the design tells is judged with the design.
+        return settled(settings, Subject(settings.kind, settings.placement, settings.pose))
     except OptionError as error:
         return [one_line(str(error))]
 

@@ -10,10 +10,11 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.stack import PackLike
 from drapery.errors import DesignError, OptionError
+from drapery.option import Subject
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
-from drapery.settings import Options, Settings, check_format, check_used, frame_count
+from drapery.settings import Options, Settings, check_format, frame_count, settled
 
 if TYPE_CHECKING:
     from drapery.garments.model import Garment
@@ -30,7 +31,7 @@ def draw(
 
     banner: a banner, shield or `Garment`; None for a cape or elytra, whose texture is an option.
     settings, options: options of the picture, see `Settings`; `options` override `settings`.
-    Without `settings` those of a garment's file count where `options` do not give others.
+    Those of a garment's file count where neither gives others.
     Raises DesignError if `banner` is something else, OptionError, PackError or BackendError.
     """
     design, chosen = _checked(banner, settings, options)
@@ -227,8 +228,9 @@ def _checked(
 ) -> tuple["Banner | Garment | None", Settings]:
     if not (settings is None or isinstance(settings, Settings)):
         raise OptionError(f"settings {str(settings)[:40]!r} are not Settings; give options by name")
+    chosen = (settings or Settings()).changed(**options)
     if banner is None or isinstance(banner, Banner):
-        return banner, _settled(settings, options)
+        return banner, settled(chosen, chosen.subject(banner.kind if banner else "banner"))
     # Imported here: pictures of banners need no pydantic.
     from drapery.garments.model import Garment
 
@@ -236,17 +238,9 @@ def _checked(
         raise DesignError(
             f"{str(banner)[:40]!r} is not a Banner; read a text with Banner.parse(text)"
         )
-    chosen = _settled(settings, options) if settings else banner.settings(**options)
-    banner.check_settings(chosen)
+    chosen = settled(chosen, Subject("garment"), own=banner.picture)
     texture = chosen.texture_path
     return banner if texture is None else banner.with_texture(texture), chosen
-
-
-def _settled(settings: Settings | None, options: Options) -> Settings:
-    check_used(options, "standing" if settings is None else settings.placement)
-    if settings is None:
-        return Settings(**options)
-    return replace(settings, **options) if options else settings
 
 
 def _warn_of(packs: Packs) -> None:

@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
+from functools import wraps
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, get_args
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, get_args
 
 from drapery.errors import OptionError
 from drapery.option import Effect, Option, Output, Subject, shown, within
@@ -127,9 +128,25 @@ def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
     return field(default=default, metadata={"help": help, "type": kind, **more})
 
 
+def _with_given(made: Any) -> Any:
+    """Let `Settings.given` hold the names in a call; `replace` hands on those of before."""
+    fill = made.__init__
+
+    @wraps(fill)
+    def init(self: Any, *args: Any, given: frozenset[str] | None = None, **options: Any) -> None:
+        fill(self, *args, given=frozenset(options) if given is None else given, **options)
+
+    made.__init__ = init
+    return made
+
+
+@_with_given
 @dataclass(frozen=True)
 class Settings:
-    """Checked options of a picture. Raises OptionError that names the option and its limits."""
+    """Checked options of a picture. Raises OptionError that names the option and its limits.
+
+    given: the names of those that were given, and of all that differ from their default.
+    """
 
     packs: PackLike | Sequence[PackLike] = _option(
         (),
@@ -168,7 +185,7 @@ class Settings:
         default_text="elytra.png of the packs",
         metavar="FILE",
         affects=("surface",),
-        not_for=("banner", "player", "face", "link"),
+        not_for=("banner", "shield", "player", "face", "link"),
         remedy="for a cape use kind cape, for a player cape",
     )
     pose: Pose = _option(
@@ -453,10 +470,13 @@ class Settings:
         affects=("file",),
         not_for=("page", "link"),
     )
+    given: frozenset[str] = field(default=frozenset(), compare=False, repr=False, kw_only=True)
 
     def __post_init__(self) -> None:
         for name, option in OPTIONS.items():
             object.__setattr__(self, name, option.check(getattr(self, name)))
+        changed = {n for n, o in OPTIONS.items() if _differ(getattr(self, n), o.default)}
+        object.__setattr__(self, "given", self.given | changed)
         background_colour(self.background)
         self._check_turn()
         self._check_ground()
@@ -489,6 +509,15 @@ class Settings:
             raise OptionError(
                 f"rotation {self.rotation} applies only to standing banners; {remedy}"
             )
+
+    @property
+    def given_values(self) -> dict[str, Any]:
+        """The options that were given, by name."""
+        return {name: getattr(self, name) for name in OPTIONS if name in self.given}
+
+    def changed(self, **options: Unpack[Options]) -> Settings:
+        """The settings with other values of some options, which count as given."""
+        return replace(self, **options, given=self.given | options.keys()) if options else self
 
     def subject(self, kind: str = "banner") -> Subject:
         """What is drawn of a design of this kind."""
@@ -561,7 +590,11 @@ class Settings:
 
 
 OPTIONS: Mapping[str, Option] = MappingProxyType(
-    {f.name: Option(f.name, default=f.default, **f.metadata) for f in fields(Settings)}
+    {
+        f.name: Option(f.name, default=f.default, **f.metadata)
+        for f in fields(Settings)
+        if f.metadata
+    }
 )
 """The options of a picture by name, in the order in which help lists them."""
 
@@ -610,16 +643,35 @@ def frame_count(seconds: float, fps: float) -> int:
     return max(1, round(seconds * fps))
 
 
-def check_used(given: Mapping[str, Any], placement: str = "standing") -> None:
-    """Raise OptionError for an option that changes nothing in the placement of a picture.
+def settled(
+    settings: Settings,
+    subject: Subject,
+    output: Output | None = None,
+    own: Mapping[str, Any] = MappingProxyType({}),
+) -> Settings:
+    """The settings of a picture: the subject's own options, and in their place those given.
 
-    given: values by name; a default counts as not given. placement: unless it is given.
+    own: by name. Its rotation belongs to its own view: another view `front` or `back` shows that
+    side. Raises OptionError for an option that does nothing for the subject in the output; None and
+    a value of the subject's own are not refused.
     """
-    subject = Subject(given.get("kind", "auto"), given.get("placement", placement))
+    given = settings.given_values
     for name, value in given.items():
-        refusal = OPTIONS[name].refusal(subject)
-        if refusal is not None and value != OPTIONS[name].default:
+        refusal = OPTIONS[name].refusal(subject, output)
+        if refusal and value is not None and (name not in own or _differ(value, own[name])):
             raise OptionError(refusal)
+    if not own:
+        return settings
+    turned = given.get("view") in ("front", "back") and "rotation" not in given
+    kept = {name: own[name] for name in own if not (turned and name == "rotation")}
+    return Settings(**kept | given)
+
+
+def _differ(value: object, other: object) -> bool:
+    """Whether two values differ; an array differs from all but itself."""
+    if value is other:
+        return False
+    return not isinstance(value, str | int | float | tuple | Path) or value != other
 
 
 def applicable(subject: Subject | None = None, output: Output | None = None) -> tuple[str, ...]:

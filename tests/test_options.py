@@ -36,12 +36,13 @@ NUMBERS = [
 
 
 def test_the_table_the_settings_and_the_keywords_are_the_same() -> None:
-    assert list(OPTIONS) == [field.name for field in fields(Settings)]
+    made = [field for field in fields(Settings) if field.name != "given"]
+    assert list(OPTIONS) == [field.name for field in made]
     assert {name: kind.__forward_arg__ for name, kind in Options.__annotations__.items()} == {
-        field.name: field.type for field in fields(Settings)
+        field.name: field.type for field in made
     }
     assert {name: option.default for name, option in OPTIONS.items()} == {
-        field.name: field.default for field in fields(Settings)
+        field.name: field.default for field in made
     }
 
 

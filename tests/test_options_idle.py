@@ -90,8 +90,10 @@ def test_all_ways_to_give_it_refuse_it(name: str, drapery: Run, tmp_path: Path) 
     assert not list(tmp_path.iterdir())
 
 
-def test_a_default_is_not_refused_and_a_file_has_other_placements() -> None:
-    assert isinstance(check_options({"placement": "item", "view": "front"}, Path()), Settings)
+def test_a_given_default_is_refused_too_and_none_is_not() -> None:
+    said = ["view does nothing for placement item; leave it out"]
+    assert check_options({"placement": "item", "view": "front"}, Path()) == said
+    assert isinstance(check_options({"placement": "item", "direction": None}, Path()), Settings)
     assert isinstance(check_options({"placement": "wall", "view": "back"}, Path()), Settings)
 
 

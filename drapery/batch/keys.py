@@ -74,6 +74,7 @@ def picture_key(
     """
     style = combined_style(settings.style)
     options, texture = asdict(replace(settings, style=())), settings.texture_path
+    del options["given"]  # the values say all
     options["style"] = style.describe()
     options["packs"] = [digests.of(pack) for pack in settings.pack_paths]
     options["texture"] = None if texture is None else digests.of(texture)

@@ -288,7 +288,6 @@ def _garment(
     try:
         found = find_garment(folder / text if text.endswith(".toml") else text)
         settings = found.settings(**given)
-        found.check_settings(settings)
         return found if banner is None else found.with_design(banner), settings
     except OptionError as error:
         faults.append(one_line(str(error)))
@@ -315,7 +314,6 @@ def _player(
     try:
         found = player_of(PlayerSettings(**chosen), folder.absolute())
         settings = found.settings(**given)
-        found.check_settings(settings)
     except (DesignError, OptionError) as error:
         faults.append(one_line(str(error)))
         return None, Settings()

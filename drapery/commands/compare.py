@@ -62,17 +62,19 @@ def run(
     """
     from drapery.comparison import compare_variants, draw_variants, is_picture, read_tolerance
     from drapery.render import check_target
-    from drapery.settings import Settings
+    from drapery.settings import NAMED_OPTIONS, Settings
 
     folders = folders_of(subjects)
     for target in out or []:
         check_target(target, *(REPORTS if folders else (*REPORTS, "still", "loop")))
     limits = read_tolerance({name: words.pop(name) for name in LIMIT_OPTIONS})
     if folders or any(is_picture(subject) for subject in subjects):
-        _refuse_options(words | {"layers": layers, "backend": backend}, cost)
+        named = {"layers": layers, "backend": backend}
+        changed = {n: v for n, v in named.items() if v != NAMED_OPTIONS[n].default}
+        _refuse_options(words | changed, cost)
     if folders:
         raise typer.Exit(compare_folders(folders, limits, out or (), perceptual=perceptual))
-    modes, backends, styles = layers.split(","), backend.split(","), words.pop("style") or ()
+    modes, backends, styles = layers.split(","), backend.split(","), words.pop("style", ())
     first = {"layers": modes[0], "backend": backends[0]}
     settings = Settings(**o.options_of(words | first))
     reading = {name: words[name] for name in _READING}
@@ -97,10 +99,7 @@ def _refuse_options(words: dict[str, Any], cost: bool) -> None:
 
     idle = ["--cost"] if cost else []
     idle += [f"--{flag}" for name, flag in _READING.items() if words[name] is not None]
-    for name, option in NAMED_OPTIONS.items():
-        given = words.get(name)
-        if given not in (None, [], option.default, option.to_text(option.default)):
-            idle.append(option.command_flag)
+    idle += [option.command_flag for name, option in NAMED_OPTIONS.items() if name in words]
     if idle:
         raise OptionError(f"{idle[0]} does nothing for finished pictures; leave it out")
 

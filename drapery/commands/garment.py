@@ -65,16 +65,9 @@ def run(
         from drapery.banner import read_design
 
         garment = garment.with_design(read_design(banner))
-    given = {key: words[key] for key in words if is_given(context, key)}
     check_page_options(context, out)
-    settings = garment.settings(**o.options_of(given))
+    settings = garment.settings(**o.options_of(words))
     write_garment(garment, out, settings, seconds, fps)
-
-
-def is_given(context: typer.Context, name: str) -> bool:
-    """Whether an option stands on the command line."""
-    source = context.get_parameter_source(name)
-    return source is not None and source.name != "DEFAULT"
 
 
 def check_page_options(context: typer.Context, out: str) -> None:
@@ -86,7 +79,7 @@ def check_page_options(context: typer.Context, out: str) -> None:
     if known_format(out, "page"):
         for name, option in {**LOOP_OPTIONS, **NAMED_OPTIONS}.items():
             refusal = option.refusal(output="page")
-            if refusal is not None and is_given(context, name):
+            if refusal is not None and o.is_given(context, name):
                 raise OptionError(f"{out}: {refusal}")
 
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.garment import is_given
 from drapery.commands.notices import progress, say
+from drapery.commands.options import is_given
 from drapery.errors import counted
 
 if TYPE_CHECKING:

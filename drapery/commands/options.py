@@ -2,6 +2,7 @@
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 import typer
 
 from drapery.option import Option, Output, Subject
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options, applicable, check_used
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options, applicable
 
 if TYPE_CHECKING:
     from drapery import Banner
@@ -81,6 +82,8 @@ def pictured(
 ) -> Callable[[Command], Command]:
     """Add the options of a picture to a command that takes any keyword, after its own options.
 
+    The command gets those that are given.
+
     output, subject: only the options that apply to them; a subject with a file of its own takes no
         design either. without: options that it leaves out. An option that the command declares is
         not replaced. more: options of another table, which come first.
@@ -95,12 +98,29 @@ def pictured(
         table = {**more, **{name: NAMED_OPTIONS[name] for name in applicable(subject, output)}}
         shared = source | {name: _from_option(option) for name, option in table.items()}
         added = {n: p for n, p in shared.items() if n not in own and n not in without}
+        optional = [name for name in NAMED_OPTIONS if name in added]
+        context = next((n for n, p in own.items() if p.annotation is typer.Context), "")
+        if not context:
+            added["ctx"] = _parameter("ctx", inspect.Parameter.empty, typer.Context)
+
+        @wraps(command)
+        def run(**words: Any) -> None:
+            called = words[context] if context else words.pop("ctx")
+            unset = {name for name in optional if not is_given(called, name)}
+            command(**{name: word for name, word in words.items() if name not in unset})
+
         every = [p.replace(kind=p.KEYWORD_ONLY) for p in (own | added).values()]
-        command.__signature__ = inspect.Signature(every)  # type: ignore[attr-defined]
-        command.__annotations__ |= {name: p.annotation for name, p in added.items()}
-        return command
+        run.__signature__ = inspect.Signature(every)  # type: ignore[attr-defined]
+        run.__annotations__ |= {name: p.annotation for name, p in added.items()}
+        return cast(Command, run)
 
     return extend
+
+
+def is_given(context: typer.Context, name: str) -> bool:
+    """Whether an option stands on the command line."""
+    source = context.get_parameter_source(name)
+    return source is not None and source.name != "DEFAULT"
 
 
 def _from_option(option: Option) -> inspect.Parameter:
@@ -127,7 +147,6 @@ def options_of(words: Mapping[str, Any]) -> Options:
         name: option.parse((words[name] or ()) if option.several else words[name])
         for name, option in chosen.items()
     }
-    check_used(values)
     return cast(Options, values)
 
 

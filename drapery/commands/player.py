@@ -5,7 +5,7 @@ from typing import Annotated, Any
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.garment import check_page_options, is_given, write_garment
+from drapery.commands.garment import check_page_options, write_garment
 from drapery.option import Subject
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 
@@ -35,5 +35,4 @@ def run(
     }
     player = player_of(PlayerSettings(**chosen))
     check_page_options(context, out)
-    given = {key: words[key] for key in words if is_given(context, key)}
-    write_garment(player, out, player.settings(**o.options_of(given)), seconds, fps)
+    write_garment(player, out, player.settings(**o.options_of(words)), seconds, fps)

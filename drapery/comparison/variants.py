@@ -64,8 +64,7 @@ def variant_of(
         return Variant(label, as_picture(subject))
     from drapery.pictures import draw
 
-    chosen = settings or Settings()
-    chosen = replace(chosen, **options)
+    chosen = (settings or Settings()).changed(**options)
     return Variant(label, as_picture(draw(subject, chosen)), subject, chosen)
 
 

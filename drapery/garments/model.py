@@ -7,7 +7,7 @@ origin, its feet on y = 0, and looks to +z.
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -35,7 +35,7 @@ from drapery.mesh_file import MESH_ENDINGS
 from drapery.option import Subject, shown
 from drapery.options import unknown_names
 from drapery.player_settings import MAX_SPEED
-from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings, applicable
+from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings, applicable, settled
 from drapery.style.equipment import SOLIDS, parse_armor, parse_trim
 from drapery.style.figure import WING_JOINTS
 from drapery.toml_text import Place
@@ -627,24 +627,7 @@ class Garment(GarmentTable):
 
     def settings(self, **options: Any) -> Settings:
         """The settings of its picture. options: those that replace its own. Raises OptionError."""
-        return Settings(**self.picture_options(options))
-
-    def picture_options(self, given: Mapping[str, Any]) -> dict[str, Any]:
-        """Options of its picture, where those that are given replace its own.
-
-        Its own rotation belongs to its own view: another view `front` or `back` shows that side.
-        """
-        own = dict(self.picture)
-        if given.get("view") in ("front", "back") and "rotation" not in given:
-            own.pop("rotation", None)
-        return {**own, **given}
-
-    def check_settings(self, settings: Settings) -> None:
-        """Raise OptionError for an option that its file sets in its stead, such as `grid`."""
-        for name, option in OPTIONS.items():
-            refusal = option.refusal(Subject("garment"))
-            if refusal is not None and getattr(settings, name) != option.default:
-                raise OptionError(refusal)
+        return settled(Settings(**options), Subject("garment"), own=self.picture)
 
     @property
     def paths(self) -> tuple[Path, ...]:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from urllib.parse import parse_qsl
@@ -14,7 +14,7 @@ from drapery.option import Option, shown, within
 from drapery.option import Subject as Drawn
 from drapery.options import check_options, one_line, unknown
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
-from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
+from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings, settled
 from drapery.styles import combined_style
 
 if TYPE_CHECKING:
@@ -190,9 +190,11 @@ def read_request(
             garment = (
                 _player(values, config, skin) if is_player else _garment(values, config.limits)
             )
-            settings = replace(config.base, **garment.picture_options(chosen))
+            own = {**config.base.given_values, **garment.picture}
+            settings = settled(Settings(**chosen), Drawn(subject), own=own)
             return _request(values, garment, settings, ending, config.limits)
-        settings, banner = replace(config.base, **chosen), _banner(values, config.limits)
+        settings, banner = config.base.changed(**chosen), _banner(values, config.limits)
+        settings = settled(settings, settings.subject(banner.kind))
         _check_kind(banner, settings)
         return _request(values, banner, settings, ending, config.limits)
     except DraperyError as error:

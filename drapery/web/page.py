@@ -184,10 +184,8 @@ def posed_player(
 
 def seen_settings(garment: Garment, settings: Settings, size: tuple[int, int] = SIZE) -> Settings:
     """What a user chose for banners, for a garment that is seen from behind; else its own."""
-    own = applicable(Subject("garment"))
-    given, standard = {name: getattr(settings, name) for name in own}, Settings()
-    chosen = {name: given[name] for name in own if given[name] != getattr(standard, name)}
-    return Settings(**{**given, **garment.picture, **chosen, "size": size, "rotation": FROM_BEHIND})
+    kept = {n: v for n, v in settings.given_values.items() if n in applicable(Subject("garment"))}
+    return garment.settings(**{**kept, "size": size, "rotation": FROM_BEHIND})
 
 
 def _package() -> dict[str, object]:

@@ -29,6 +29,7 @@ from drapery.banner import PATTERN_NAMES, Banner
 from drapery.errors import OptionError
 from drapery.garments import Garment
 from drapery.mesh import Array, Mesh
+from drapery.option import Subject
 from drapery.packs import Packs
 from drapery.render import Material, TextureLayer
 from drapery.scenes import (
@@ -39,7 +40,7 @@ from drapery.scenes import (
     live_panels,
     played_garment,
 )
-from drapery.settings import Settings
+from drapery.settings import Settings, settled
 from drapery.style import Body, MaterialAt, body_of
 from drapery.styles import Style
 from drapery.web.messages import MessageEncoder, pack, unpack
@@ -79,7 +80,7 @@ def scene_bytes(
 
 def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> bytes:
     """The file of a garment on its wearer, in the wind of the settings. Errors: `scene_bytes`."""
-    garment.check_settings(settings)
+    settings = settled(settings, Subject("garment"), own=garment.picture)
     stager = Stager(Body(), settings, ())
     _check(stager.settings, stager.style, True)
     played = played_garment(garment, packs, settings)

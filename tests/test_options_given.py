@@ -1,0 +1,73 @@
+"""What a caller gave: kept by Settings, and put in place of a garment's own options."""
+
+import pickle
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import Run
+
+from drapery import Settings, draw
+from drapery.errors import OptionError
+from drapery.garments import Garment
+from drapery.option import Subject
+from drapery.settings import OPTIONS, settled
+
+FLAG = Garment.model_validate(
+    {
+        "name": "flag",
+        "piece": [{"name": "flag", "size": [8, 8], "points": [3, 3]}],
+        "picture": {"view": "iso", "rotation": 8, "wind": 2, "size": "16x24", "time": 0.1},
+    }
+)
+
+
+def test_given_are_the_names_in_a_call_and_what_differs_from_a_default() -> None:
+    given = Settings(wind=4.0, view="iso")
+    assert given.given == {"wind", "view"}
+    assert replace(given, gusts=1.0).given == {"wind", "view", "gusts"}
+    assert given.changed(seed=0).given == {"wind", "view", "seed"}
+    assert given.changed() is given and Settings().given == frozenset()
+    assert pickle.loads(pickle.dumps(given)).given == given.given
+    assert given.given_values == {"view": "iso", "wind": 4.0}
+
+
+def test_given_names_are_no_part_of_the_value() -> None:
+    assert Settings(wind=4.0) == Settings() and hash(Settings(wind=4.0)) == hash(Settings())
+    assert "given" not in repr(Settings()) and "given" not in OPTIONS
+    assert set(asdict(Settings())) - set(OPTIONS) == {"given"}
+
+
+@pytest.mark.parametrize(
+    "options", [{}, {"size": (24, 16)}, {"view": "front"}, {"wind": 4.0}, {"view": "iso"}], ids=str
+)
+def test_a_garment_keeps_its_own_options_where_settings_give_none(options: dict[str, Any]) -> None:
+    by_name = draw(FLAG, **options).pixels
+    assert np.array_equal(draw(FLAG, Settings(**options)).pixels, by_name)
+    assert np.array_equal(draw(FLAG, FLAG.settings(**options)).pixels, by_name)
+
+
+def test_a_given_option_replaces_the_subjects_own() -> None:
+    own = {"wind": 2.0, "view": "iso", "rotation": 8}
+    read = settled(Settings(wind=4.0), Subject("garment"), own=own)
+    assert (read.wind, read.view, read.rotation) == (4.0, "iso", 8)
+    assert settled(Settings(view="back"), Subject("garment"), own=own).rotation == 0
+    assert settled(read, Subject("garment"), own=own) == read
+
+
+@pytest.mark.parametrize("contact", ["none", "world", "all"])
+def test_a_garment_refuses_each_value_of_what_its_file_sets(contact: Any) -> None:
+    said = "contact does nothing for a garment; set it in the garment's file"
+    for settings in (Settings(contact=contact), None):
+        options = {} if settings else {"contact": contact}
+        with pytest.raises(OptionError, match=said):
+            draw(FLAG, settings, **options)
+
+
+def test_the_command_line_gives_only_what_stands_there(drapery: Run, tmp_path: Path) -> None:
+    words = ("render", "red", "--placement", "item", "--size", "8x8", "-o", tmp_path / "x.png")
+    assert drapery(*words)[0] == 0
+    code, _, said = drapery(*words, "--wind", "4")  # the default
+    assert (code, said) == (2, "drapery: wind does nothing for placement item; leave it out\n")
