@@ -1,6 +1,7 @@
 """Texts that are not banners: one line with the place and the remedy, in every form."""
 
 from contextlib import suppress
+from itertools import accumulate, islice, product
 
 import fuzzing
 import pytest
@@ -9,15 +10,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tracing import untraced
 
+from drapery.banner.dyes import DYES
 from drapery.banner.formats import (
     FORMS,
     functions,
     parse_banner,
     parse_banners,
     registry,
+    several,
     write_banner,
 )
 from drapery.banner.formats.snbt import MAX_TEXT
+from drapery.banner.patterns import PATTERNS
 from drapery.errors import DesignError
 
 
@@ -207,6 +211,34 @@ def test_long_texts_of_commands_are_read_or_refused_soon(name: str):
     line = fuzzing.LONG_TEXTS[name]
     with limited_cost(5), untraced(), suppress(DesignError):
         parse_banners(line * (MAX_TEXT // len(line)))
+
+
+LINES = {
+    "commands": "give @s {base}_banner[banner_patterns=[{{pattern:{pattern},color:{dye}}}]]",
+    "items": "{base}_banner[banner_patterns=[{{pattern:{pattern},color:{dye}}}]]",
+}
+
+
+@pytest.mark.parametrize("form", LINES)
+@pytest.mark.parametrize("before", ["", "red creeper:lime\n"], ids=["alone", "mixed"])
+def test_different_lines_are_read_up_to_a_length(form: str, before: str):
+    combinations = product(DYES, PATTERNS, DYES)
+    lines = [
+        LINES[form].format(base=base, pattern=pattern, dye=dye)
+        for base, pattern, dye in islice(combinations, 8000)
+    ]
+    sizes = accumulate(map(len, lines), initial=len(before.strip()))
+    read = sum(size <= several.MAX_READ for size in sizes) - 1
+    assert 1000 < read < len(lines) - 1000
+    text = before + "\n".join([*lines, lines[0]])
+    with limited_cost(20), untraced(), pytest.warns(UserWarning) as caught:
+        found = parse_banners(text)
+    assert len(found) == read + 1 + bool(before), "equal lines cost nothing"
+    first = read + 1 + bool(before)
+    assert [str(each.message) for each in caught] == [
+        f"line {first} and on: {len(lines) - read} designs left out, because different lines"
+        f" have over {several.MAX_READ} characters: split the text"
+    ]
 
 
 def test_texts_of_broken_commands_are_refused():

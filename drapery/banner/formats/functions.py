@@ -20,6 +20,7 @@ from drapery.banner.formats.commands import (
 )
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.leftovers import PARAMETER, literal_macro, looks_like_design
+from drapery.banner.formats.several import MAX_READ, left_out_error
 from drapery.banner.names import shown
 from drapery.errors import DesignError
 
@@ -99,7 +100,8 @@ def read(text: str) -> list[FoundBanner]:
 def find(text: str, on_error: Callable[[DesignError], None]) -> list[FoundBanner]:
     """All banners of the commands, each with its line, which may be none.
 
-    on_error: called with the error of one broken line, after which the search continues.
+    on_error: called with the error of one broken line, after which the search continues, and
+        before these with one that says which commands were left out because of MAX_READ.
 
     Raises DesignError for over MAX_COMMANDS lines with a banner and for over MAX_BROKEN broken
     ones.
@@ -110,7 +112,14 @@ def find(text: str, on_error: Callable[[DesignError], None]) -> list[FoundBanner
     found: list[FoundBanner] = []
     known: dict[str, list[FoundBanner]] = {}
     broken: list[DesignError] = []
+    left_out: list[int] = []
+    characters = 0
     for number, line in lines:
+        if line not in known:
+            characters += len(line)
+            if characters > MAX_READ:
+                left_out.append(number)
+                continue
         try:
             if line not in known:
                 known[line] = _read_line(line, number)
@@ -121,6 +130,8 @@ def find(text: str, on_error: Callable[[DesignError], None]) -> list[FoundBanner
                 raise DesignError(
                     f"{broken[0]}; {MAX_BROKEN} more commands cannot be read: correct them"
                 ) from None
+    if left_out:
+        on_error(left_out_error(left_out))
     for each in broken:
         on_error(each)
     return found
