@@ -91,3 +91,45 @@ def test_a_skin_dropped_on_the_live_view_becomes_a_player(page: Any) -> None:
     drop(page, "me.png", skin, ".live-view canvas")
     command = "drapery player --skin me.png --head white -o banner.png"
     wait_until(lambda: value(page, "as-command").startswith(command))
+
+
+KEPT = """
+const found = [...document.querySelectorAll(arguments[0])];
+const kept = found.map((each) => each.kept === true);
+for (const each of found) each.kept = true;
+return kept;
+"""
+"""Whether each element was there at the last call."""
+READ = """
+document.getElementById("design-text").dispatchEvent(
+  new CustomEvent("read", { detail: arguments[0] }));
+"""
+MOVE = """
+const slider = document.querySelector(arguments[0]);
+slider.value = 20;
+slider.dispatchEvent(new Event("input", { bubbles: true }));
+"""
+
+
+def test_lists_keep_their_elements_in_place(page: Any) -> None:
+    def count(selector: str) -> int:
+        return len(page.find_elements("css selector", selector))
+
+    found, step = "#panel-text .found", ".steps-strip .step"
+    page.execute_script(READ, "red creeper:lime\nblue skull:white\ngreen cross:red")
+    wait_until(lambda: count(found) == 3)
+    page.execute_script(KEPT, found)
+    page.execute_script(READ, "red creeper:lime\nblue skull:white\npink cross:red\nwhite")
+    wait_until(lambda: count(found) == 4)
+    assert page.execute_script(KEPT, found) == [True, True, False, False]
+    slider = "#panel-compare .versus-slider input"
+    click(page, "#panel-compare .line button")
+    wait_until(lambda: count(slider))
+    page.execute_script(MOVE, slider)
+    for pattern, steps in (("creeper", 2), ("skull", 3)):
+        click(page, f"[data-pattern={pattern}]")
+        wait_until(lambda steps=steps: count(step) == steps)
+        kept = page.execute_script(KEPT, step)
+    assert kept == [True, True, False]
+    at = "return document.querySelector(arguments[0]).value"
+    assert page.execute_script(at, slider) == "20", "it stays where it was moved to"

@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Callable, Coroutine
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -13,10 +14,10 @@ from pack_maker import META, mcmeta, plain, zip_pack
 
 from drapery import Banner, Settings
 from drapery.errors import PackError
-from drapery.studio.design_buttons import design_button
+from drapery.studio.design_buttons import DesignButton
 from drapery.studio.library import Library
 from drapery.studio.pack_store import PackStore
-from drapery.studio.panels import file_options, motion, packs
+from drapery.studio.panels import file_options, letters, motion, packs, start, steps
 from drapery.studio.panels.library import LibraryPanel
 from drapery.studio.records import Design
 from drapery.studio.session import Session, Sessions, StudioConfig
@@ -60,8 +61,8 @@ def texts(client: Client, prop: str = "") -> list[str]:
 def test_the_name_of_a_design_button_begins_with_its_text(in_page: Callable[..., None]) -> None:
     async def build(client: Client, session: Session) -> None:
         with client:
-            seen = design_button(session, "found", BANNER, text="Row 3")
-            alone = design_button(session, "found", BANNER)
+            seen = DesignButton(session, "found", BANNER, text="Row 3")
+            alone = DesignButton(session, "found", BANNER)
         assert seen.props["aria-label"] == seen.props["title"]
         assert seen.props["aria-label"] == f"Row 3: {alone.props['aria-label']}"
 
@@ -149,3 +150,23 @@ def test_an_item_has_no_turntable(in_page: Callable[..., None]) -> None:
         assert not group.visible
 
     in_page(build)
+
+
+@pytest.mark.parametrize("panel", [start, letters, steps])
+def test_elements_stay_where_they_are_while_packs_change(
+    panel: ModuleType, in_page: Callable[..., None]
+) -> None:
+    async def check(client: Client, session: Session) -> None:
+        for base in ("red", "blue", "lime"):
+            session.selection.lay_out(sketch_of(Banner(base)))
+        with client:
+            panel.build(session)
+        before = {**client.elements}
+        addresses = [address for address in texts(client, "src") if address]
+        session.adjust(format=10)
+        assert {**client.elements} == before
+        changed = [address for address in texts(client, "src") if address]
+        assert len(changed) == len(addresses) > 2
+        assert all(new != old for new, old in zip(changed, addresses, strict=True))
+
+    in_page(check)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Hashable, Mapping
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 from nicegui import ui
 from nicegui.element import Element
@@ -67,32 +67,39 @@ def translated_text(text: str, tag: str = "span") -> ui.label:
     return text_element(translated(text), tag)
 
 
-def versus_slider(left: str, right: str, title: str) -> None:
-    """Two pictures, one over the other, with a slider between them.
+class VersusSlider(Element):
+    """Two pictures, one over the other, with a slider between them."""
 
-    left, right: their addresses. title: names the right one; the left one is the current design.
-    """
-    with ui.element("div").classes("versus-slider"):
-        with ui.element("div").classes("versus-faces"):
-            for address in (left, right):
-                ui.element("img").props('alt=""').props["src"] = address
-        slider = ui.element("input").props("type=range min=0 max=100 value=50").classes("slider")
-        label = translated("Left: your design now. Right: {title}").format(title=title)
-        slider.props["aria-label"] = label
+    def __init__(self, title: str) -> None:
+        """title: names the right one; the left one is the current design."""
+        super().__init__("div")
+        with self.classes("versus-slider"):
+            with ui.element("div").classes("versus-faces"):
+                self._faces = [ui.element("img").props('alt=""') for _ in range(2)]
+            # It begins in the middle; a value here would be set again at each change of the page.
+            slider = ui.element("input").props("type=range min=0 max=100")
+            label = translated("Left: your design now. Right: {title}").format(title=title)
+            slider.classes("slider").props["aria-label"] = label
+
+    def show(self, left: str, right: str) -> None:
+        """Show the pictures at these addresses."""
+        for face, address in zip(self._faces, (left, right), strict=True):
+            set_props(face, {"src": address})
 
 
-class KeptElements:
-    """The children of an element, by keys that say all that each of them shows.
+class KeptElements(Generic[ElementT]):
+    """The children of an element, by keys that say all that each of them is made for.
 
-    A child whose key is still wanted stays, because a click on one that is replaced is lost.
+    A child whose key is still wanted stays, because a click on one that is replaced is lost. What
+    else it shows is set in the children that `show` returns.
     """
 
     def __init__(self, parent: Element) -> None:
         self._parent = parent
-        self._children: dict[Hashable, Element] = {}
+        self._children: dict[Hashable, ElementT] = {}
 
-    def show(self, wanted: Mapping[Hashable, Callable[[], Element]]) -> None:
-        """Show children in this order. wanted: what makes each of them, by its key."""
+    def show(self, wanted: Mapping[Any, Callable[[], ElementT]]) -> list[ElementT]:
+        """Show children in this order, and return them. wanted: what makes each, by its key."""
         before, self._children = self._children, {}
         for key, make in wanted.items():
             child = before.pop(key, None)
@@ -105,6 +112,7 @@ class KeptElements:
         for place, child in enumerate(self._children.values()):
             if self._parent.default_slot.children[place] is not child:
                 child.move(target_index=place)
+        return [*self._children.values()]
 
 
 class SegmentedControl:

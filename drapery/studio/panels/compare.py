@@ -1,5 +1,7 @@
 """Two designs, one over the other, with a slider between them."""
 
+from functools import partial
+
 from nicegui import ui
 
 from drapery.studio.art import face_address
@@ -9,7 +11,7 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import Sketch, banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, hint, translated_text, versus_slider
+from drapery.studio.widgets import KeptElements, VersusSlider, button, hint, translated_text
 
 MAX_STEPS = 24
 """The most designs of the history that can be chosen."""
@@ -47,19 +49,23 @@ def build(session: Session) -> None:
         kept = session.sketch
         show()
 
+    def face(sketch: Sketch) -> str:
+        return face_address(session, banner_of(sketch))
+
+    def slider_to(other: Sketch) -> VersusSlider:
+        return VersusSlider(described(other))
+
     with ui.element("div").classes("line"):
         button("Keep this design to compare with", keep, icon="push_pin", text="Keep this design")
     field = Fields(session).choice("Compare with", {}, current, choose)
-    place = ui.element("div")
+    sliders: KeptElements[VersusSlider] = KeptElements(ui.element("div"))
 
     def show() -> None:
         field.set_choices(choices())
-        place.clear()
-        if kept is None:
-            return
-        with place, errors_shown():
-            now, other = (face_address(session, banner_of(each)) for each in (session.sketch, kept))
-            versus_slider(now, other, described(kept))
+        with errors_shown():
+            others = [] if kept is None else [kept]
+            for slider in sliders.show({each: partial(slider_to, each) for each in others}):
+                slider.show(face(session.sketch), face(others[0]))
 
     session.follow(show, "sketch", "packs")
 

@@ -1,12 +1,13 @@
 """Words as rows of banners: write, look, and open a letter as the design."""
 
+from functools import partial
 from typing import Any
 
 from nicegui import ui
 
 from drapery.banner import DYE_NAMES, letter_banners, write_banner
 from drapery.studio.descriptions import dye_title
-from drapery.studio.design_buttons import design_button
+from drapery.studio.design_buttons import DesignButton, DesignList
 from drapery.studio.panels.fields import Fields, copy_field
 from drapery.studio.session import Session
 from drapery.studio.translation import translated
@@ -43,14 +44,17 @@ def build(session: Session) -> None:
         fields.choice("Border", borders, lambda: chosen["border"] or "", border)
     row = ui.element("div").classes("letters").props("role=group")
     row.props["aria-label"] = translated("Letters")
+    letters = DesignList(row)
     written = copy_field("letters-text", "The commands of the letters", 4)
 
     def show() -> None:
         banners = letter_banners(**chosen)
-        row.clear()
-        with row:
-            for banner in banners:
-                design_button(session, "found", banner, side=30)
+        letters.show(
+            {
+                (place, banner): partial(DesignButton, session, "found", banner, side=30)
+                for place, banner in enumerate(banners)
+            }
+        )
         written("\n".join(write_banner(banner, "give") for banner in banners))
 
     session.follow(show, "packs")

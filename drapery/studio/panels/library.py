@@ -54,7 +54,7 @@ class LibraryPanel:
         self._undo.set_visibility(False)
         self._found = ui.element("ul").classes("designs")
         self._found.props["aria-label"] = translated("Designs")
-        self._cards = KeptElements(self._found)
+        self._cards: KeptElements[Element] = KeptElements(self._found)
         self._count = text_element("", "p").classes("hint").props("role=status")
         self._more = button("More designs", self._show_more, text="More")
         self._more.set_visibility(False)

@@ -18,11 +18,12 @@ from drapery.studio.sketch import banner_of
 from drapery.studio.translation import translated
 from drapery.studio.widgets import (
     KeptElements,
+    VersusSlider,
     button,
     on,
+    set_props,
     text_element,
     translated_text,
-    versus_slider,
 )
 
 NO_PACK = "none"
@@ -85,7 +86,7 @@ def _list(session: Session) -> None:
     client = ui.context.client
     listed = ui.element("ol").classes("packs")
     listed.props["aria-label"] = translated("Packs, the one that wins first")
-    kept = KeptElements(listed)
+    kept: KeptElements[Element] = KeptElements(listed)
     session.follow(show, "packs")
 
 
@@ -193,17 +194,12 @@ def _comparison(session: Session) -> None:
         other = name if name in choices() else NO_PACK
         with errors_shown():
             session.viewport.update(beside=_paths(pack_store, other))
-        pictures.refresh()
+        show()
 
-    @ui.refreshable
-    def pictures() -> None:
-        if other != NO_PACK:
-            banner, title = banner_of(session.sketch), choices()[other]
-            now, then = (face_address(session, banner, pack=each) for each in ("now", other))
-            versus_slider(now, then, title)
-            with ui.element("div").classes("versus"):
-                _side(session, "now", now, "Your packs in their order")
-                _side(session, other, then, title)
+    def show() -> None:
+        chosen = [] if other == NO_PACK else [(other, choices()[other])]
+        for pair in pairs.show({each: partial(_Comparison, session, *each) for each in chosen}):
+            pair.show()
 
     def follow() -> None:
         chooser.set_choices(choices())
@@ -212,9 +208,9 @@ def _comparison(session: Session) -> None:
             choose(other)
 
     chooser = Fields(session).choice("Compare with", choices(), lambda: other, choose)
-    pictures()
+    pairs: KeptElements[_Comparison] = KeptElements(ui.element("div"))
     session.listen(follow, "packs")
-    session.listen(pictures.refresh, "sketch")
+    session.listen(show, "sketch")
 
 
 def _paths(pack_store: PackStore, other: str) -> tuple[str, ...] | None:
@@ -224,14 +220,37 @@ def _paths(pack_store: PackStore, other: str) -> tuple[str, ...] | None:
     return (str(pack_store.path_of(int(other))),) if other.isdigit() else None
 
 
-def _side(session: Session, pack: str, face: str, caption: str) -> None:
-    """The design and all patterns, drawn from one stack of packs. face: the design's address."""
-    sketch = session.sketch
-    dye = sketch.strokes[-1].dye if sketch.strokes else "black"
-    field = next(each for each in (sketch.base, "white", "black") if each != dye)
-    patterns = sheet_address(session, dye, field, pack, rows=True)
-    with ui.element("figure").classes("versus-side"):
-        translated_text(caption, "figcaption")
-        for title, address in (("Design", face), ("Patterns", patterns)):
-            picture = ui.element("img").classes(f"versus-{title.lower()}")
-            picture.props.update({"src": address, "alt": f"{translated(title)}: {caption}"})
+class _Comparison(Element):
+    """The design and all patterns, drawn from the tab's packs and from another stack of them."""
+
+    def __init__(self, session: Session, pack: str, title: str) -> None:
+        """pack: of the other side, as in `face_address`. title: its name."""
+        super().__init__("div")
+        self._session = session
+        with self:
+            self._slider = VersusSlider(title)
+            with ui.element("div").classes("versus"):
+                captions = {"now": "Your packs in their order", pack: title}
+                self._sides = {name: self._side(text) for name, text in captions.items()}
+
+    def _side(self, caption: str) -> list[Element]:
+        """The two pictures of a side."""
+        pictures = []
+        with ui.element("figure").classes("versus-side"):
+            translated_text(caption, "figcaption")
+            for title in ("Design", "Patterns"):
+                picture = ui.element("img").classes(f"versus-{title.lower()}")
+                picture.props["alt"] = f"{translated(title)}: {caption}"
+                pictures.append(picture)
+        return pictures
+
+    def show(self) -> None:
+        """Show the design as it is now."""
+        session, sketch = self._session, self._session.sketch
+        dye = sketch.strokes[-1].dye if sketch.strokes else "black"
+        field = next(each for each in (sketch.base, "white", "black") if each != dye)
+        faces = [face_address(session, banner_of(sketch), pack=each) for each in self._sides]
+        self._slider.show(*faces)
+        for face, (pack, (design, patterns)) in zip(faces, self._sides.items(), strict=True):
+            set_props(design, {"src": face})
+            set_props(patterns, {"src": sheet_address(session, dye, field, pack, rows=True)})

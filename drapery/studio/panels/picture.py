@@ -1,17 +1,18 @@
 """From a picture to a design: drop a picture, watch the candidates improve, and open one."""
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 from nicegui import context, ui
 from starlette.concurrency import run_in_threadpool
 
-from drapery import DraperyError
+from drapery import Banner, DraperyError
 from drapery.banner import LOOM_LAYERS
 from drapery.match import Match, Matcher, MatchProgress, fit_picture, match_photo, read_picture
 from drapery.packs import Packs
 from drapery.studio.descriptions import described
-from drapery.studio.design_buttons import design_button
+from drapery.studio.design_buttons import DesignButton, DesignList
 from drapery.studio.file_field import FileField
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
@@ -50,7 +51,7 @@ def build(session: Session) -> None:
                 if state.matches != shown:
                     shown = state.matches
                     with client:
-                        _show(session, row, shown)
+                        _show(session, candidates, shown)
             line = f"The designs most like {upload.name}: click one to open it."
             with client:
                 status.set_text(translated(line))
@@ -74,6 +75,7 @@ def build(session: Session) -> None:
     status = text_element("", "p").classes("hint").props('role="status"')
     row = ui.element("div").classes("letters candidates").props('role="group"')
     row.props["aria-label"] = translated("Candidates")
+    candidates = DesignList(row)
 
 
 def _states(path: Path, name: str, packs: Packs, is_photo: bool) -> Iterator[MatchProgress]:
@@ -91,9 +93,10 @@ def _states(path: Path, name: str, packs: Packs, is_photo: bool) -> Iterator[Mat
     )
 
 
-def _show(session: Session, row: ui.element, matches: tuple[Match, ...]) -> None:
-    row.clear()
-    with row:
-        for number, match in enumerate(matches, 1):
-            words = f"{number}: {described(sketch_of(match.banner))}"
-            design_button(session, "found", match.banner, label=words, side=50)
+def _show(session: Session, candidates: DesignList, matches: tuple[Match, ...]) -> None:
+    def candidate(number: int, banner: Banner) -> DesignButton:
+        words = f"{number}: {described(sketch_of(banner))}"
+        return DesignButton(session, "found", banner, label=words, side=50)
+
+    numbered = [(number, match.banner) for number, match in enumerate(matches, 1)]
+    candidates.show({each: partial(candidate, *each) for each in numbered})

@@ -5,10 +5,12 @@ from functools import partial
 
 from nicegui import ui
 
-from drapery.studio.design_buttons import design_button
+from drapery.settings import Settings
+from drapery.studio.design_buttons import DesignButton, DesignList
 from drapery.studio.design_catalogue import EXAMPLES, OwnDesign, groups, own_designs
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
+from drapery.studio.share import write_link
 from drapery.studio.sketch import Sketch, banner_of
 from drapery.studio.translation import translated
 from drapery.studio.widgets import button, hint, translated_text
@@ -40,15 +42,17 @@ def _recent(session: Session) -> None:
         translated_text("Recent", "h3")
         row = ui.element("div").classes("own-designs recent-designs")
 
-    def show() -> None:
-        row.clear()
-        recent.set_visibility(bool(session.recent))
-        with row, errors_shown():
-            for sketch, settings in session.recent:
-                press = partial(session.open, sketch, settings)
-                text = sketch.title or translated("Untitled")
-                design_button(session, "own-design", banner_of(sketch), press, text=text)
+    def card(sketch: Sketch, settings: Settings) -> DesignButton:
+        press = partial(session.open, sketch, settings)
+        text = sketch.title or translated("Untitled")
+        return DesignButton(session, "own-design", banner_of(sketch), press, text=text)
 
+    def show() -> None:
+        recent.set_visibility(bool(session.recent))
+        with errors_shown():
+            cards.show({write_link(*each): partial(card, *each) for each in session.recent})
+
+    cards = DesignList(row)
     session.follow(show, "recent")
 
 
@@ -71,12 +75,14 @@ def build_examples(session: Session) -> None:
 def _designs(session: Session, designs: Sequence[OwnDesign]) -> None:
     row = ui.element("div").classes("own-designs")
 
-    def show() -> None:
-        row.clear()
-        with row:
-            for each in designs:
-                name = each.title
-                card = design_button(session, "own-design", each.banner, text=name, title=name)
-                card.props["data-own"] = name
+    def card(design: OwnDesign) -> DesignButton:
+        name = design.title
+        card = DesignButton(session, "own-design", design.banner, text=name, title=name)
+        card.props["data-own"] = name
+        return card
 
+    def show() -> None:
+        cards.show({each.title: partial(card, each) for each in designs})
+
+    cards = DesignList(row)
     session.follow(show, "packs")

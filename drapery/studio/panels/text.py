@@ -1,11 +1,14 @@
 """Read a design from any form of text or file, and write it in any form."""
 
+from collections.abc import Callable, Hashable
 from functools import partial
 
 from nicegui import context, ui
+from nicegui.element import Element
 
 from drapery import Banner
-from drapery.studio.design_buttons import design_button
+from drapery.studio.art import face_address
+from drapery.studio.design_buttons import DesignButton
 from drapery.studio.file_field import FileField
 from drapery.studio.notices import ADDED, called_in_thread, show_notice
 from drapery.studio.panels.written import build_writer
@@ -13,7 +16,14 @@ from drapery.studio.session import Session
 from drapery.studio.sketch import sketch_of
 from drapery.studio.translation import translated
 from drapery.studio.upload_queue import MAX_FOUND, UploadQueue
-from drapery.studio.widgets import button, hint, on, text_element, translated_text
+from drapery.studio.widgets import (
+    KeptElements,
+    button,
+    hint,
+    on,
+    text_element,
+    translated_text,
+)
 
 MAX_PLACE = 60
 """The most characters shown of the place where a banner was found."""
@@ -42,7 +52,7 @@ def _reader(session: Session) -> None:
         press.classes("primary").props('id="read-text"')
     FileField(session, "design", "Choose a file", upload_queue.read_file, zone="body")
     hint("Or drop a file anywhere: schematics, structures, regions, saves, functions.")
-    listed = ui.element("div").classes("found-list")
+    choices: KeptElements[Element] = KeptElements(ui.element("div").classes("found-list"))
     read = partial(upload_queue.read_text, beside=True)
     on(text, "read", read, js_handler="(e) => emit(String(e.detail))")
     client = context.client
@@ -52,9 +62,7 @@ def _reader(session: Session) -> None:
             _arrive(session, upload_queue)
             fault.set_text(translated(upload_queue.line))
             fault.set_visibility(bool(upload_queue.line))
-            listed.clear()
-            with listed:
-                _choices(session, upload_queue)
+            choices.show(_choices(session, upload_queue))
 
     fault.set_visibility(False)
     session.listen(arrive, "read")
@@ -82,16 +90,24 @@ def _open(session: Session, banner: Banner, title: str = "") -> None:
     show_notice(f"The design has been read. Layers: {len(sketch.strokes)}")
 
 
-def _choices(session: Session, upload_queue: UploadQueue) -> None:
+def _choices(session: Session, upload_queue: UploadQueue) -> dict[Hashable, Callable[[], Element]]:
+    """What makes the buttons of several banners that were found, by what each shows."""
     if len({found.banner for found in upload_queue.found}) < 2:
-        return
-    button("Save all banners in the library", lambda: save_all(session), text="Save all")
-    for number, found in enumerate(upload_queue.found[:MAX_FOUND]):
-        place = _shortened(found.where) or f"{translated('Banner')} {number + 1}"
-        press = partial(_open, session, found.banner)
-        design_button(session, "found", found.banner, press, text=place, side=30)
-    if len(upload_queue.found) > MAX_FOUND:
-        hint(f"The first {MAX_FOUND} of {len(upload_queue.found)}.")
+        return {}
+
+    def choice(place: str, banner: Banner) -> Element:
+        press = partial(_open, session, banner)
+        return DesignButton(session, "found", banner, press, text=place, side=30)
+
+    save = partial(button, "Save all banners in the library", partial(save_all, session))
+    wanted: dict[Hashable, Callable[[], Element]] = {"save": partial(save, text="Save all")}
+    for number, found in enumerate(upload_queue.found[:MAX_FOUND], 1):
+        place = _shortened(found.where) or f"{translated('Banner')} {number}"
+        face = face_address(session, found.banner, 2)  # it changes with the packs
+        wanted[number, place, found.banner, face] = partial(choice, place, found.banner)
+    if (count := len(upload_queue.found)) > MAX_FOUND:
+        wanted["more", count] = partial(hint, f"The first {MAX_FOUND} of {count}.")
+    return wanted
 
 
 async def save_all(session: Session) -> None:
