@@ -13,7 +13,7 @@ from cost import limited_cost
 from hypothesis import given
 from hypothesis import strategies as st
 from pack_maker import CREEPER, plain
-from PIL import Image
+from served_pictures import opened, pixels_of
 from starlette.testclient import TestClient
 from test_batch_keys import make_pack
 
@@ -51,28 +51,17 @@ def client() -> Iterator[TestClient]:
         yield client
 
 
-def pixels(data: bytes) -> np.ndarray:
-    import io
-
-    with Image.open(io.BytesIO(data)) as image:
-        return np.asarray(image.convert("RGBA"))
-
-
 def test_a_picture_is_what_draw_draws(client: TestClient) -> None:
     got = client.get(f"/banner.png?design={LIME}&{SMALL}&wind=6&view=hero")
-    assert (got.status_code, got.headers["content-type"]) == (200, "image/png")
     banner = Banner.parse("white creeper:lime")
     drawn = draw(banner, size=(24, 32), grid=(3, 5), wind=6, view="hero")
-    assert np.array_equal(pixels(got.content), drawn.pixels)
+    assert np.array_equal(pixels_of(got), drawn.pixels)
 
 
 def test_a_loop_has_its_frames(client: TestClient) -> None:
-    import io
-
     got = client.get(f"/banner.gif?design=red&{SMALL}&seconds=0.3&fps=10")
-    assert (got.status_code, got.headers["content-type"]) == (200, "image/gif")
     drawn = animate(Banner("red"), size=(24, 32), grid=(3, 5), seconds=0.3, fps=10)
-    with Image.open(io.BytesIO(got.content)) as image:
+    with opened(got, "gif") as image:
         assert image.n_frames == len(drawn) == 3
 
 
@@ -90,10 +79,9 @@ def test_the_deadline_includes_the_time_of_reading(monkeypatch: pytest.MonkeyPat
 
 def test_a_garment_is_what_draw_draws(client: TestClient) -> None:
     got = client.get("/garment.png?name=pennon&design=red&size=24x32&time=0.1")
-    assert (got.status_code, got.headers["content-type"]) == (200, "image/png")
     pennon = find_garment("pennon").with_design("red")
     drawn = draw(pennon, size=(24, 32), time=0.1)  # the file's own view and wind
-    assert np.array_equal(pixels(got.content), drawn.pixels)
+    assert np.array_equal(pixels_of(got), drawn.pixels)
 
 
 @pytest.mark.parametrize(

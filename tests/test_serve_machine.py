@@ -6,7 +6,6 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import cache
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule, run_state_machine_as_test
 from pack_maker import CREEPER, META, folder_pack, mcmeta, plain
-from PIL import Image
+from served_pictures import pixels_of
 from test_batch_server import service, workers_of
 
 from drapery import Banner, draw
@@ -61,8 +60,7 @@ class ServeMachine(RuleBasedStateMachine):
         )
         assert time.monotonic() - start < DEADLINE + 2
         if answer.status_code == 200:
-            assert answer.headers["content-type"] == "image/png"
-            assert np.array_equal(_pixels(answer.content), self.expected(design, seed))
+            assert np.array_equal(pixels_of(answer), self.expected(design, seed))
             self.tags[design, seed] = answer.headers["etag"]
             return True
         assert answer.status_code in (503, 504)
@@ -131,11 +129,6 @@ class ServeMachine(RuleBasedStateMachine):
         assert self.process.poll() is None
         assert self.client.get(f"{self.base}/healthz").status_code == 200
         assert "drapery_requests_total" in self.client.get(f"{self.base}/metrics").text
-
-
-def _pixels(data: bytes) -> np.ndarray:
-    with Image.open(BytesIO(data)) as image:
-        return np.asarray(image.convert("RGBA"))
 
 
 # The pack has one pattern only, which each picture says that is drawn here to compare.
