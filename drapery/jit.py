@@ -17,7 +17,7 @@ from typing import Any, TypeVar, cast
 from drapery.aot.arguments import pack
 from drapery.aot.library import CompiledKernel, kernels_of
 from drapery.errors import BackendError
-from drapery.kernel_sources import SIMD
+from drapery.kernel_sources import SIMD, Compiled, ImportedByNumba
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -34,10 +34,10 @@ _declarations: list[Callable[[], Any]] = []
 _lock = threading.RLock()
 
 
-class Kernel:
+class Kernel(Compiled):
     """A function that numba compiles when it is first used; kernels call it as any other."""
 
-    _options: dict[str, Any] = INNER
+    options: dict[str, Any] = INNER
 
     def __init__(self, function: Callable[..., object]) -> None:
         update_wrapper(cast(Any, self), function)
@@ -54,10 +54,12 @@ class Kernel:
                     self._made = self._make()
         return self._made
 
-    def _make(self) -> Any:
-        from numba import njit
+    @property
+    def made_of(self) -> tuple[Any, ...]:
+        return self.py_func, self.options, _compiled
 
-        return cast(Any, njit)(**self._options)(self.py_func)
+    def _make(self) -> Any:
+        return _compiled(self.py_func, self.options)
 
     @property
     def _numba_type_(self) -> Any:
@@ -72,11 +74,13 @@ class Kernel:
 class Borrower(Kernel):
     """A kernel that does not count references to arrays."""
 
-    _options = INNER | {"_nrt": False}
+    options = INNER | {"_nrt": False}
 
 
 class EntryPoint(Kernel):
     """A kernel that Python calls."""
+
+    options = OUTER
 
     def __call__(self, *arguments: Any) -> Any:
         if self._ahead:
@@ -93,22 +97,24 @@ class EntryPoint(Kernel):
 
     @cached_property
     def _ahead(self) -> dict[tuple[str, ...], CompiledKernel]:
-        return kernels_of(self.py_func)
+        return kernels_of(self)
 
     def _make(self) -> Any:
-        from numba import njit
-
         from drapery.jit_cache import cache_on_disk
 
-        return cache_on_disk(cast(Any, njit)(**OUTER)(self.py_func))
+        return cache_on_disk(super()._make(), self)
 
 
-class NumbaName:
+class NumbaName(Compiled):
     """A name that kernels use for something that is made when numba is imported."""
 
-    def __init__(self, make: Callable[[], Any]) -> None:
-        self._make = make
+    def __init__(self, make: Callable[[], Any], *made_of: Any) -> None:
+        self._make, self._made_of = make, made_of
         _declarations.append(lambda: self._numba_type_)
+
+    @property
+    def made_of(self) -> tuple[Any, ...]:
+        return self._made_of
 
     @cached_property
     def _numba_type_(self) -> Any:
@@ -119,6 +125,12 @@ class NumbaName:
         cpu_target.typing_context.refresh()
         cpu_target.target_context.refresh()
         return cpu_target.typing_context.resolve_value_type(made)
+
+
+def _compiled(function: Callable[..., object], options: dict[str, Any]) -> Any:
+    from numba import njit
+
+    return cast(Any, njit)(**options)(function)
 
 
 def kernel(function: Function) -> Function:
@@ -163,7 +175,8 @@ def numba_name(module: str, name: str, plain: str | None = None) -> Any:
         used = module if plain is None or fits_numba(module) else plain
         return getattr(import_module(used), name)
 
-    return NumbaName(make)
+    files = [ImportedByNumba(each) for each in (module, plain) if each]
+    return NumbaName(make, name, *files)
 
 
 @cache
@@ -183,11 +196,6 @@ def fits_numba(module: str) -> bool:
     return True
 
 
-def uses_numba(module: str) -> None:
-    """Import a module, which tells numba of more, before the first kernel is compiled."""
-    _declarations.append(lambda: import_module(module))
-
-
 def call_by_address(result: type, example: tuple[Any, ...]) -> Any:
     """A function (address, arguments) that kernels call; see `address_of`.
 
@@ -200,7 +208,9 @@ def call_by_address(result: type, example: tuple[Any, ...]) -> Any:
 
         return address_caller(result, example)
 
-    return NumbaName(make)
+    packed = pack(example)
+    types = packed.types if packed else ()
+    return NumbaName(make, result, types, ImportedByNumba("drapery.jit_calls"))
 
 
 def address_of(function: Any, example: tuple[Any, ...]) -> int:

@@ -1,14 +1,12 @@
 """Compiled kernels on disk.
 
 numba's own cache checks only the file of a cached function, so an edit of a function that it calls
-from another file gives stale results. Here the key has a hash of all source files of the function's
-top-level package (such as all of `drapery.cloth`) and of the few files that kernels of any package
-use: kernels refer to nothing else, which a test checks by following all that they refer to. The key
-also has the versions of the compiler and its settings, such as NUMBA_BOUNDSCHECK. Each key has a
-folder of its own, so that installations with the same sources share their kernels. A damaged file
-is compiled again. Kernels of other packages than Drapery's are not stored, since the files that
-they use are not known. If no folder can be written, kernels are compiled in every process, and a
-warning says so once.
+from another file gives stale results. Here the key has all that the function is compiled from, see
+`drapery.kernel_sources`, and the versions of the compiler and its settings, such as
+NUMBA_BOUNDSCHECK. Each key has a folder of its own, so that installations with the same sources
+share their kernels. A damaged file is compiled again. A kernel of which something has no source is
+not stored. If no folder can be written, kernels are compiled in every process, and a warning says
+so once.
 """
 
 import hashlib
@@ -26,20 +24,21 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import llvmlite
 import numba
 from numba import config
 from numba.core import caching
+from numba.core.types import BaseTuple
 from numba.misc.appdirs import AppDirs
 
-from drapery.kernel_sources import SIMD, source_files, source_hash
+from drapery.kernel_sources import SIMD, fields_of, source_key
 
 LOG = logging.getLogger(__name__)
 REMEDY = "set NUMBA_CACHE_DIR to a folder that can be written"
 MAX_SOURCES = 24
-"""The most folders of kernels that are kept, each for one state of the sources."""
+"""The most folders that are kept of one kernel, each for one state of its sources."""
 NOT_ABOUT_CODE = re.compile("CUDA|.*CUDA|DUMP_|CACHE_|COLOR_|.*NUM_THREADS|FULL_TRACEBACKS|.*WARN")
 """Names of settings of numba that change no machine code."""
 
@@ -104,12 +103,12 @@ def _check_private(folder: Path) -> None:
         raise PermissionError(f"{folder} is not private to this user")
 
 
-def cache_on_disk(dispatcher: Any) -> Any:
+def cache_on_disk(dispatcher: Any, entry_point: Any) -> Any:
     """Give a function that numba will compile a cache, if there is a folder for one."""
     if kernel_cache_status().folder is None:
         _warn_once(f"kernels are compiled in every process ({kernel_cache_status().reason})")
-    elif is_ours(dispatcher.py_func) and source_files(dispatcher.py_func):
-        dispatcher._cache = _KernelCache(dispatcher.py_func)
+    elif key := source_key(entry_point):
+        dispatcher._cache = _KernelCache(dispatcher.py_func, key)
     return dispatcher
 
 
@@ -118,20 +117,23 @@ def _warn_once(message: str) -> None:
     warnings.warn(f"{message}; {REMEDY}", stacklevel=2)
 
 
-def is_ours(function: Callable[..., object]) -> bool:
-    """Whether a function is of Drapery."""
-    return function.__module__.startswith("drapery.")
-
-
-def folder_for(source: str) -> Path:
-    """The folder for kernels of sources with this hash; it is made, and the oldest one deleted.
+def folder_for(kernel: str, source: str) -> Path:
+    """The folder for a kernel of sources with this key; it is made, and the oldest one deleted.
 
     The versions and settings that say what numba makes of the sources are part of its name.
     Raises OSError.
     """
-    return _folder(f"{source} {compiler_settings()}")
+    folder = kernel_cache_status().folder
+    assert folder is not None
+    key = f"{source} {compiler_settings()}"
+    own = folder / kernel / hashlib.sha256(key.encode()).hexdigest()[:16]
+    if not own.is_dir():
+        own.mkdir(parents=True, exist_ok=True)
+        _delete_oldest(own.parent)
+    return own
 
 
+@cache
 def compiler_settings() -> str:
     """The versions and settings that decide what machine code sources become.
 
@@ -140,17 +142,6 @@ def compiler_settings() -> str:
     found = {name: str(value) for name, value in vars(_config).items() if name.isupper()}
     chosen = {name: found[name] for name in sorted(found) if not NOT_ABOUT_CODE.match(name)}
     return f"{numba.__version__} {llvmlite.__version__} {os.environ.get(SIMD)} {chosen}"
-
-
-@cache
-def _folder(key: str) -> Path:
-    folder = kernel_cache_status().folder
-    assert folder is not None
-    own = folder / hashlib.sha256(key.encode()).hexdigest()[:16]
-    if not own.is_dir():
-        own.mkdir(exist_ok=True)
-        _delete_oldest(folder)
-    return own
 
 
 def _delete_oldest(folder: Path) -> None:
@@ -163,28 +154,30 @@ def _delete_oldest(folder: Path) -> None:
 
 
 class _Locator(_caching._CacheLocator):  # type: ignore[misc]
-    """Where numba stores one function, and the stamp that its files must have."""
+    """Where numba stores one function. The folder has the key of its sources."""
 
-    def __init__(self, function: Callable[..., object]) -> None:
-        self._function = function
+    def __init__(self, function: Callable[..., object], key: str) -> None:
+        self._function, self._key = function, key
         self._py_file = inspect.getfile(function)  # numba's warnings name it
 
     def get_cache_path(self) -> str:
-        return str(folder_for(source_hash(self._function)))
+        name = f"{self._function.__module__}.{self._function.__qualname__}"
+        return str(folder_for(re.sub(r"[^\w.]", "_", name), self._key))
 
     def get_source_stamp(self) -> str:
-        return source_hash(self._function)
+        return self._key
 
     def get_disambiguator(self) -> str:
-        return f"{self._function.__module__}-{self._function.__code__.co_firstlineno}"
+        return self._function.__module__
 
-    @classmethod
-    def from_function(cls, py_func: Any, py_file: str) -> "_Locator":
-        return cls(py_func)
+    def from_function(self, py_func: Any, py_file: str) -> "_Locator":
+        return self
 
 
 class _CacheFormat(_caching.CompileResultCacheImpl):  # type: ignore[misc]
-    _locator_classes: ClassVar[Any] = [_Locator]
+    def __init__(self, function: Callable[..., object], key: str) -> None:
+        self._locator_classes = [_Locator(function, key)]
+        super().__init__(function)
 
 
 class _CheckedFiles(_caching.IndexDataCacheFile):  # type: ignore[misc]
@@ -202,16 +195,26 @@ class _CheckedFiles(_caching.IndexDataCacheFile):  # type: ignore[misc]
         return pickle.loads(content[32:])
 
 
+def _fields(types: Any) -> Iterator[str]:
+    """The names and defaults of the fields of each named tuple among types of numba."""
+    for kind in types:
+        if hasattr(kind, "instance_class"):
+            yield fields_of(kind.instance_class)
+        if isinstance(kind, BaseTuple):
+            yield from _fields(kind)
+
+
 class _KernelCache(_caching.FunctionCache):  # type: ignore[misc]
     """The cache of one function."""
 
-    _impl_class = _CacheFormat
-
-    def __init__(self, function: Callable[..., object]) -> None:
+    def __init__(self, function: Callable[..., object], key: str) -> None:
+        self._impl_class = lambda function: _CacheFormat(function, key)
         super().__init__(function)
-        self._cache_file = _CheckedFiles(
-            self._cache_path, self._impl.filename_base, source_hash(function)
-        )
+        self._cache_file = _CheckedFiles(self._cache_path, self._impl.filename_base, key)
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        """numba's, with the fields of named tuples, whose types are equal in another order."""
+        return (*super()._index_key(sig, codegen), *_fields(sig))
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         try:

@@ -160,13 +160,13 @@ def build(path: Path, platform: tuple[str, str], calls: list[Call]) -> None:
 
     from drapery.aot.arguments import ABI
     from drapery.aot.library import RESULTS, SYMBOL
-    from drapery.kernel_sources import package_of, source_hash
+    from drapery.kernel_sources import source_key
 
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     triple, target = TRIPLES[platform]
     kernels: dict[str, list[dict[str, Any]]] = {}
-    sources: dict[str, str] = {}
+    sources: dict[str, str | None] = {}
     with tempfile.TemporaryDirectory() as folder:
         objects = []
         for number, call in enumerate(calls):
@@ -180,7 +180,7 @@ def build(path: Path, platform: tuple[str, str], calls: list[Call]) -> None:
             kernels.setdefault(call.name, []).append(
                 {"types": call.types, "result": result, **names}
             )
-            sources[package_of(call.kernel.py_func)] = source_hash(call.kernel.py_func)
+            sources[call.name] = source_key(call.kernel)
             print(f"{call.name}: {len(content) / 1000:.0f} kB, {len(call.types)} types")
         description = json.dumps({"abi": ABI, "sources": sources, "kernels": kernels})
         text = f"const char *{SYMBOL}(void) {{ return {json.dumps(description)}; }}\n"

@@ -7,7 +7,7 @@ aliases, names that other modules import again.
 """
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 from functools import cache
 from importlib.util import resolve_name
 from itertools import chain
@@ -16,11 +16,13 @@ from typing import NamedTuple
 from test_import_contract import modules
 
 COMPILERS = ("drapery.jit", "drapery.jit_calls", "numba")
-"""Modules that make kernels. What they are made of themselves is hashed as a whole."""
+"""Modules that make kernels."""
+WHOLE = "*"
 
 
 class Place(NamedTuple):
-    """A name at the top of a module; an empty name stands for the module itself."""
+    """A name at the top of a module; an empty name stands for the module itself, and `WHOLE` for
+    all of its names."""
 
     module: str
     name: str = ""
@@ -98,7 +100,7 @@ def used(module: str, node: ast.AST) -> Iterator[Place]:
     if isinstance(node, ast.Name):
         yield from origins(Place(module, node.id))
     if isinstance(node, ast.Constant) and node.value in modules():
-        yield Place(str(node.value))  # as in `numba_name("drapery.cloth.simd_plain", ...)`
+        yield Place(str(node.value), WHOLE)  # as in `numba_name("drapery.cloth.simd_plain", ...)`
     if isinstance(node, ast.ImportFrom):
         for alias in node.names:
             yield from origins(Place(_source_of(module, node), alias.name))
@@ -158,10 +160,26 @@ def _next(place: Place) -> tuple[Place, ...]:
     """What a place is made of."""
     if place.module in COMPILERS:
         return ()
+    if place.name == WHOLE:
+        return tuple(Place(place.module, name) for name in bindings(place.module))
     nodes = bindings(place.module).get(place.name, [])
     # A kernel makes and reads objects of a class; no method is compiled.
     plain = (node for node in nodes if not isinstance(node, ast.ClassDef))
-    return tuple(dict.fromkeys(chain.from_iterable(used(place.module, node) for node in plain)))
+    return tuple(dict.fromkeys(chain.from_iterable(_needed(place.module, node) for node in plain)))
+
+
+def _needed(module: str, node: ast.AST) -> Iterator[Place]:
+    """What a function is compiled from, or what a value holds: not what only calculated it."""
+    if isinstance(node, ast.FunctionDef):
+        yield from used(module, node)
+    elif not isinstance(node, ast.Call) or _makes_kernels(module, node.func):
+        if any(isinstance(each, ast.Call) for each in ast.iter_child_nodes(node)) or isinstance(
+            node, ast.Tuple | ast.List | ast.Dict | ast.Assign | ast.AnnAssign
+        ):
+            for each in ast.iter_child_nodes(node):
+                yield from _needed(module, each)
+        else:
+            yield from used(module, node)
 
 
 def reached(start: Place) -> set[Place]:
@@ -175,6 +193,27 @@ def reached(start: Place) -> set[Place]:
         found.add(place)
         todo += _next(place)
     return found
+
+
+def functions(places: Iterable[Place], of_kernels: Collection[Place]) -> Iterator[Place]:
+    """The functions among some places that are compiled, or say what is.
+
+    of_kernels: the functions that kernels are made of. All functions of a module count that numba
+    imports. Others only made a value that a kernel uses.
+    """
+    places = set(places)
+    whole = {place.module for place in places if place.name == WHOLE}
+    for place in sorted(places):
+        nodes = bindings(place.module).get(place.name, [])
+        compiled = place in of_kernels or place.module in whole
+        if compiled and any(isinstance(node, ast.FunctionDef) for node in nodes):
+            yield place
+
+
+def last_line(place: Place) -> int:
+    """The number of the last line of a function."""
+    (node,) = bindings(place.module)[place.name]
+    return getattr(node, "end_lineno", 0)
 
 
 def forget() -> None:

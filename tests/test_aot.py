@@ -126,7 +126,7 @@ def use(monkeypatch):
     def use(path):
         monkeypatch.setattr(library, "library_path", lambda: path)
         library._library.cache_clear()
-        return library.kernels_of(scaled_sum.py_func)
+        return library.kernels_of(scaled_sum)
 
     yield use
     library._library.cache_clear()
@@ -143,8 +143,8 @@ def test_a_library_calculates_what_numba_does(built, use):
 
 def test_a_library_of_other_sources_is_not_used(built, use, monkeypatch):
     assert use(built)
-    monkeypatch.setattr(library, "source_hash", lambda function: "other")
-    assert not library.kernels_of(scaled_sum.py_func)
+    monkeypatch.setattr(library, "source_key", lambda function: "other")
+    assert not library.kernels_of(scaled_sum)
 
 
 @pytest.mark.parametrize("content", [b"", b"no library"])

@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from drapery import jit_cache
-from drapery.jit_cache import source_files
 
 CALLEE = "from drapery.jit import kernel\n\n@kernel\ndef part(x):\n    return x + {number}\n"
 CALLER = """
@@ -95,11 +94,10 @@ def test_kernels_of_a_few_states_of_the_sources_are_kept(tmp_path, monkeypatch):
     monkeypatch.setattr(jit_cache, "kernel_cache_status", lambda: status)
     monkeypatch.setattr(jit_cache, "MAX_SOURCES", 3)
     for number in range(5):
-        folder = jit_cache.folder_for(f"sources {number}")
+        folder = jit_cache.folder_for("kernel", f"sources {number}")
         os.utime(folder, (number, number))
-    jit_cache._folder.cache_clear()
-    kept = [jit_cache.folder_for(f"sources {number}") for number in (2, 3, 4)]
-    assert sorted(tmp_path.iterdir()) == sorted(kept)
+    kept = [jit_cache.folder_for("kernel", f"sources {number}") for number in (2, 3, 4)]
+    assert sorted((tmp_path / "kernel").iterdir()) == sorted(kept)
 
 
 def with_a_wrong_byte(content):
@@ -155,8 +153,33 @@ def test_a_shared_folder_of_temporary_files_is_not_trusted(tmp_path, monkeypatch
     jit_cache._try_folder(tmp_path / "own", private=True)
 
 
-def test_the_hash_covers_the_whole_package():
-    from drapery.cloth.solvers.xpbd import _advance
+def test_kernels_whose_arguments_have_other_fields_are_compiled_again(package, tmp_path):
+    """numba's types of named tuples are equal whatever their fields are called."""
+    tuples = (
+        "from typing import NamedTuple\n\nclass Two(NamedTuple):\n    {}: float\n    {}: float\n"
+    )
+    folder = package.callee.parent
+    (folder / "two.py").write_text(tuples.format("low", "high"))
+    (folder / "gap.py").write_text(
+        "from drapery.jit import entry_point\n\n@entry_point\ndef gap(two):\n"
+        "    return two.high - two.low\n"
+    )
+    use = USE.replace("whole import total", "gap import gap").replace(
+        "total(1.0)", "gap(Two(1.0, 3.0))"
+    )
+    use = use.replace("total.stats", "gap.stats").replace(
+        "\nprint", "\nfrom drapery.{name}.two import Two\nprint"
+    )
+    program = use.format(root=str(tmp_path), name=folder.name)
+    assert run_program(program, package.cache).stdout.split() == ["2.0", "False"]
+    assert run_program(program, package.cache).stdout.split() == ["2.0", "True"]
+    (folder / "two.py").write_text(tuples.format("high", "low"))
+    assert run_program(program, package.cache).stdout.split() == ["-2.0", "False"]
 
-    names = {Path(path).name for path in source_files(_advance.py_func)}
-    assert {"xpbd.py", "kernels.py", "simd.py", "wind.py", "sweep.py", "jit.py"} <= names
+
+def test_an_edit_elsewhere_in_the_files_of_a_kernel_compiles_nothing(package):
+    assert package() == ["4.0", "False"]
+    package.callee.write_text(
+        "NEW = 1\n" + CALLEE.format(number=1) + "\n\ndef other():\n    pass\n"
+    )
+    assert package() == ["4.0", "True"]

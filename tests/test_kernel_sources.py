@@ -1,45 +1,88 @@
-"""Every source that a kernel is compiled from is in the hash under which it is stored."""
+"""The key of a kernel has all that it is compiled from, and nothing else."""
 
+import json
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from importlib import import_module
 from itertools import chain
 from pathlib import Path
 
 import kernel_reach
 import pytest
-from kernel_reach import Place, kernels, reached
+from kernel_reach import WHOLE, Place, functions, kernels, last_line, reached
 from test_import_contract import FOLDERS, modules
 
 from drapery import kernel_sources
-from drapery.jit import Kernel
+from drapery.jit import EntryPoint, Kernel
 
 ALL = sorted(chain.from_iterable(map(kernels, modules())))
-HASH = """
-from drapery.cloth.solvers.xpbd import _advance
-from drapery.kernel_sources import source_hash
-from drapery.web.wasm.module import sources_hash
-print(source_hash(_advance.py_func), sources_hash())
+KEYS = """
+import json, sys
+from importlib import import_module
+from drapery.kernel_sources import source_key
+found = {name: source_key(getattr(import_module(name[0]), name[1])) for name in NAMES}
+unwanted = sorted({"numba", "scipy"} & set(sys.modules))
+print(json.dumps([[[name, key] for name, key in found.items()], unwanted]))
 """
 
 
-def hashed_files(package: str) -> set[Path]:
-    import_module(package)
-    return {path.resolve() for path in kernel_sources._sources_of(package)}
+@cache
+def entry_points() -> dict[Place, EntryPoint]:
+    """The kernels that Python calls."""
+    found = {place: getattr(import_module(place.module), place.name) for place in ALL}
+    return {place: made for place, made in found.items() if isinstance(made, EntryPoint)}
 
 
-def test_all_that_a_kernel_refers_to_is_hashed() -> None:
-    missing = {
-        f"{kernel.module}.{kernel.name} uses {place.module}.{place.name}"
-        for kernel in ALL
-        for place in reached(kernel)
-        if modules()[place.module].resolve()
-        not in hashed_files(".".join(kernel.module.split(".")[:2]))
-    }
-    assert not missing, "\n".join(sorted(missing))
+@cache
+def compiled_by(place: Place) -> list[Place]:
+    """The functions that a kernel is compiled from, as its text names them."""
+    return [*functions(reached(place), of_kernels())]
+
+
+@cache
+def of_kernels() -> frozenset[Place]:
+    """The functions that kernels are made of."""
+    loaded = (vars(import_module(name)) for name in {place.module for place in ALL})
+    made = (each for values in loaded for each in values.values() if isinstance(each, Kernel))
+    return frozenset(Place(k.py_func.__module__, k.py_func.__qualname__) for k in made)
+
+
+def test_a_key_has_all_that_the_text_of_a_kernel_names() -> None:
+    """What reading the modules finds is what following their objects does."""
+    for place, made in entry_points().items():
+        texts = "\n".join(node.text for node in kernel_sources.reached(made))
+        for each in compiled_by(place):
+            found = f"function {each.module}.{each.name} " in texts
+            assert found or f"module {each.module} " in texts, (place, each)
+        assert kernel_sources.source_key(made)
+
+
+def test_an_edit_of_any_function_that_a_kernel_is_compiled_from_changes_its_key(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    by_function: dict[Place, Place] = {}
+    for place in entry_points():
+        by_function |= dict.fromkeys(compiled_by(place), place)
+    assert len(by_function) > 300
+    read = kernel_sources._lines
+    before = {place: kernel_sources.source_key(made) for place, made in entry_points().items()}
+    for function, place in by_function.items():
+
+        def edited(path: str, function: Place = function) -> list[str]:
+            lines = list(read(path))
+            if Path(path) == modules()[function.module]:
+                lines[last_line(function) - 1] += "  # edited"
+            return lines
+
+        monkeypatch.setattr(kernel_sources, "_lines", cache(edited))
+        kernel_sources.forget()
+        assert kernel_sources.source_key(entry_points()[place]) != before[place], function
+    monkeypatch.undo()
+    kernel_sources.forget()
 
 
 def test_every_kernel_is_found() -> None:
@@ -101,24 +144,98 @@ def test_what_a_kernel_refers_to_is_found_however_it_is_named(way: str, scratch:
     assert FOREIGN in reached(kernel)
 
 
-def test_an_edit_of_a_shared_source_changes_the_keys(
-    tmp_path: Path, untraced_processes: None
-) -> None:
-    """In a copy: of the kernels that numba and a wheel store, and of the module for pages."""
+@pytest.fixture
+def copied(tmp_path: Path, untraced_processes: None) -> "Copied":
+    """A function that reads the keys of all kernels in a copy of the project."""
     for name, folder in FOLDERS.items():
         target = tmp_path / name.replace(".", "/")
         shutil.copytree(folder, target, ignore=shutil.ignore_patterns("__pycache__", "*.png"))
+    program = f"NAMES = {[tuple(place) for place in entry_points()]}\n{KEYS}"
 
-    def keys() -> list[str]:
+    def keys() -> dict[tuple[str, ...], str]:
         env = os.environ | {"PYTHONPATH": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"}
-        command = [sys.executable, "-c", HASH]
-        return subprocess.run(
-            command, env=env, capture_output=True, text=True, check=True, cwd=tmp_path
-        ).stdout.split()
+        done = subprocess.run(
+            [sys.executable, "-c", program],
+            env=env,
+            capture_output=True,
+            text=True,
+            check=True,
+            cwd=tmp_path,
+        )
+        keys, unwanted = json.loads(done.stdout)
+        assert not unwanted, "making keys imports what takes long to import"
+        return {tuple(name): key for name, key in keys}
 
-    before = keys()
-    assert before == keys()
-    with (tmp_path / "drapery" / "elementary.py").open("a") as file:
-        file.write("\n# An edit.\n")
-    after = keys()
-    assert all(old != new for old, new in zip(before, after, strict=True))
+    return keys
+
+
+Copied = Callable[[], dict[tuple[str, ...], str]]
+
+
+def copy_of(root: Path, path: Path) -> Path:
+    """Where the copy of a file of the project is."""
+    for name, folder in FOLDERS.items():
+        if name != "drapery" and path.is_relative_to(folder):
+            return root / name.replace(".", "/") / path.relative_to(folder)
+    return root / "drapery" / path.relative_to(FOLDERS["drapery"])
+
+
+def test_an_edit_of_files_without_kernels_changes_no_key(tmp_path: Path, copied: Copied) -> None:
+    before = copied()
+    used = {place.module for kernel in entry_points() for place in compiled_by(kernel)}
+    used |= {place.module for kernel in ALL for place in reached(kernel) if place.name == WHOLE}
+    used.add("drapery.jit_calls")
+    others = {name: path for name, path in modules().items() if name not in used}
+    assert {"drapery.cloth.fabric", "drapery.render.camera"} <= set(others)
+    for path in others.values():
+        with copy_of(tmp_path, path).open("a", encoding="utf-8") as file:
+            file.write("\nAN_EDIT = 1\n")
+    assert copied() == before
+
+
+EDITS = {
+    "a constant of another module": (
+        *("drapery/cloth/kernels.py", "MIN_SPEED = 1e-9", "MIN_SPEED = 2e-9"),
+        Place("drapery.cloth.solvers.xpbd", "_advance_sheet"),
+    ),
+    "a constant from which another is made": (
+        *("drapery/jit.py", "REGISTER = 64", "REGISTER = 32"),
+        Place("drapery.cloth.solvers.xpbd", "_advance"),
+    ),
+    "the fields of a named tuple": (
+        *("drapery/cloth/contact/smoothness.py", "    tangents: Array\n", ""),
+        Place("drapery.cloth.contact.self_contact", "meet_all"),
+    ),
+    "the options of the compiler": (
+        *("drapery/jit.py", '"nogil": True', '"nogil": False'),
+        Place("drapery.styles.kernels", "blur"),
+    ),
+    "what numba imports by name": (
+        *("drapery/cloth/live_choices.py", "batch, 1, substeps)", "batch, 2, substeps)"),
+        Place("drapery.cloth.live", "play"),
+    ),
+    "a choice that numba makes": (
+        *("drapery/cloth/live.py", "desbrun.DesbrunPlan: desbrun._advance,", ""),
+        Place("drapery.cloth.live", "play"),
+    ),
+}
+
+
+def test_an_edit_of_what_a_kernel_holds_changes_its_key(tmp_path: Path, copied: Copied) -> None:
+    before = copied()
+    for name, (path, old, new, place) in EDITS.items():
+        file = tmp_path / path
+        text = file.read_text()
+        assert old in text, name
+        file.write_text(text.replace(old, new))
+        assert copied()[place] != before[place], name
+        file.write_text(text)
+    assert copied() == before
+
+
+def test_a_kernel_that_uses_what_has_no_text_has_no_key() -> None:
+    unknown = object()
+    assert kernel_sources.source_key(lambda: unknown) is None
+    made: dict[str, Callable[[], int]] = {}
+    exec("def written(): return 1", made)
+    assert kernel_sources.source_key(made["written"]) is None

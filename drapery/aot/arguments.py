@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-ABI = 1
+ABI = 2
 """The version of this layout. A library with another version is not used."""
 
 C_CONTIGUOUS, F_CONTIGUOUS, ALIGNED, WRITEABLE = 0x1, 0x2, 0x100, 0x400
@@ -80,4 +80,5 @@ def _array_type(dtype: np.dtype[Any], ndim: int, flags: int) -> str:
 
 @lru_cache(256)
 def _tuple_type(kind: type) -> str:
-    return "(" if kind is tuple else f"{kind.__module__}.{kind.__qualname__}("
+    fields = " ".join(getattr(kind, "_fields", ()))
+    return "(" if kind is tuple else f"{kind.__module__}.{kind.__qualname__}[{fields}]("

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from drapery.aot.arguments import ABI
-from drapery.kernel_sources import package_of, source_hash
+from drapery.kernel_sources import source_key
 
 OFF = "DRAPERY_AOT"
 """The variable of the environment that turns the library off if it is 0."""
@@ -57,14 +57,14 @@ def library_path() -> Path:
     return Path(__file__).with_name(name)
 
 
-def kernels_of(entry_point: Callable[..., object]) -> dict[tuple[str, ...], CompiledKernel]:
+def kernels_of(entry_point: Any) -> dict[tuple[str, ...], CompiledKernel]:
     """The compiled code of a function by the types of its arguments; empty if there is none."""
     found = _library()
     name = f"{entry_point.__module__}.{entry_point.__qualname__}"
     if found is None or name not in found[1]["kernels"]:
         return {}
     loaded, description = found
-    if description["sources"].get(package_of(entry_point)) != source_hash(entry_point):
+    if description["sources"][name] != source_key(entry_point):
         return {}
     return {
         tuple(each["types"]): _compiled(loaded, name, each) for each in description["kernels"][name]

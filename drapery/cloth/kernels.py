@@ -14,7 +14,7 @@ import numpy as np
 from drapery import elementary
 from drapery.cloth.simd import fill, flush_denormals, lane_count, load, maximum, sqrt, store
 from drapery.cloth.wind import CROSSWIND
-from drapery.jit import kernel, uses_numba
+from drapery.jit import kernel, numba_name
 
 TINY = 1e-6
 """The shortest length of a spring over its rest length; it avoids a division by 0."""
@@ -24,7 +24,9 @@ GUST_RMS = 0.1836
 """Rms of gradient noise whose gradients are uniform in [-1, 1]³, measured over 10⁷ points."""
 ALONG, ACROSS, UP = CROSSWIND
 
-uses_numba("drapery.cloth.kernel_choices")
+_CHOICES = "drapery.cloth.kernel_choices"
+filter_velocities = numba_name(_CHOICES, "filter_velocities")
+restore_angular_momentum = numba_name(_CHOICES, "restore_angular_momentum")
 sine_of_turns = kernel(elementary.sine_of_turns)
 
 
@@ -346,13 +348,6 @@ def subtract_frame(g: Any, v: Any, mean: Any) -> None:
             store(g, row, lane, load(v, row, lane) - load(mean, row % 3, lane))
 
 
-def filter_velocities(both: Any, filter: Any, pins: Any) -> None:
-    """both[1] = W both[0], pins at 0; both [2, 3N, L], of which both[0] is overwritten.
-
-    filter: a `filters.Filter` or a `filters.BandFilter`.
-    """
-
-
 @kernel
 def filter_by_products(both: Any, filter: Any, pins: Any) -> None:
     """both[1] = W both[0], pins at 0; both [2, 3N, L]; both[0] is overwritten. See `Filter`."""
@@ -417,10 +412,6 @@ def filter_by_band(both: Any, filter: Any, pins: Any) -> None:
                 other = both[1, 3 * filter.order[below] + axis]
                 for lane in range(to.size):
                     to[lane] -= part * other[lane]
-
-
-def restore_angular_momentum(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
-    """Subtract from g the angular momentum that the filter added to v; see `spin.Spin`."""
 
 
 @kernel

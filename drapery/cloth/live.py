@@ -24,7 +24,7 @@ from drapery.cloth.solvers.driver import Batch, batch_of
 from drapery.cloth.stepping import MovingCloth
 from drapery.cloth.wind import Wind
 from drapery.errors import OptionError
-from drapery.jit import entry_point, kernel, uses_numba
+from drapery.jit import entry_point, kernel, numba_name
 from drapery.mesh import Array
 
 __all__ = ["LiveCall", "LiveControls", "LiveMotion", "live_call", "play"]
@@ -38,6 +38,7 @@ PLAYERS = {
 """The plans that can be played, and the kernels that step them."""
 BY_LANES = desbrun.DesbrunPlan, xpbd.XPBDPlan
 """Plans of cloths that are stepped side by side in lanes."""
+step_plan = numba_name("drapery.cloth.live_choices", "step_plan")
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,13 +190,6 @@ def _controls(moving: MovingCloth, batch: Batch, motion: LiveMotion) -> LiveCont
         positions=positions,
         velocities=np.zeros_like(positions),
     )
-
-
-def step_plan(plan: Any, batch: Any, substeps: Any) -> None:
-    """One time step of the solver that the plan belongs to."""
-
-
-uses_numba("drapery.cloth.live_choices")
 
 
 @entry_point

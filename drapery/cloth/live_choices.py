@@ -4,7 +4,11 @@ from typing import Any
 
 from numba.extending import overload
 
-from drapery.cloth.live import BY_LANES, PLAYERS, step_plan
+from drapery.cloth.live import BY_LANES, PLAYERS
+
+
+def step_plan(plan: Any, batch: Any, substeps: Any) -> None:
+    """One time step of the solver that the plan belongs to."""
 
 
 @overload(step_plan)

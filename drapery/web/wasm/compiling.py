@@ -11,8 +11,8 @@ if __name__ == "__main__":
     # the code, which is not optimised, so it needs no wrappers and must not be kept. Where Python
     # does call such code, it writes anywhere in memory.
     jit.REGISTER = 16
-    jit.OUTER = jit.INNER
-    vars(jit_cache)["cache_on_disk"] = lambda dispatcher: dispatcher
+    jit.EntryPoint.options = jit.INNER
+    vars(jit_cache)["cache_on_disk"] = lambda dispatcher, kernel: dispatcher
 
 from drapery import Banner, Settings
 from drapery.garments import find_garment

@@ -12,11 +12,12 @@ import drapery.cloth
 import drapery.render
 import drapery.style
 from drapery.jit_cache import kernel_cache_status
-from drapery.kernel_sources import shared_files
 from drapery.web.wasm.image import WasmBuildError
 
 HERE = Path(__file__).parent
 BUILDERS = "compiler.py", "compiling.py", "image.py", "runtime.c"
+COMMON = "elementary.py", "jit.py", "jit_calls.py"
+"""Files of Drapery's own folder that kernels are compiled with."""
 
 
 @cache
@@ -25,7 +26,11 @@ def sources_hash() -> str:
     total = hashlib.sha256()
     packages = drapery.cloth, drapery.style, drapery.render
     sources = [*chain(*(sorted(_folder(package).rglob("*.py")) for package in packages))]
-    for path in (*sources, *shared_files(), *(HERE / name for name in BUILDERS)):
+    common, builders = (
+        (HERE.parents[1] / name for name in COMMON),
+        (HERE / name for name in BUILDERS),
+    )
+    for path in (*sources, *common, *builders):
         total.update(hashlib.sha256(path.read_bytes()).digest())
     return total.hexdigest()[:16]
 
