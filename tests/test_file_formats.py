@@ -34,11 +34,6 @@ LOOP = ("--seconds", 0.2, "--fps", 10)
 OTHER_TABLES = {
     "drapery.file_formats": "the table",
     "drapery.mesh_headers": "the readers of 3-D files that a user names",
-    "drapery.studio.panels.file_options": "the kinds of the studio's exports",
-    "drapery.studio.panels.picture": "the pictures that the studio is sent",
-    "drapery.studio.routes": "the media types of the studio's exports",
-    "drapery.studio.snippets": "the kinds of the studio's exports",
-    "drapery.studio.uploads": "the pictures that the studio is sent",
 }
 """Modules that may list endings, and what they list."""
 

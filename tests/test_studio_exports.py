@@ -11,13 +11,22 @@ import pytest
 
 from drapery.banner.design import Banner, Layer
 from drapery.errors import DraperyError, OptionError
+from drapery.file_formats import KIND_NAMES, format_of
 from drapery.settings import Settings
 from drapery.studio import exports
 from drapery.studio.chosen_scene import scene_choice, what_follows
 from drapery.studio.exports import Export, ExportSlots, count_frames, make, stem_of
-from drapery.studio.routes import MEDIA_TYPES
 from drapery.studio.session import Session
-from drapery.studio.snippets import KINDS, ExportRequest, as_command, as_python, file_name
+from drapery.studio.snippets import (
+    KINDS,
+    LOOPS,
+    MODELS,
+    STILLS,
+    ExportRequest,
+    as_command,
+    as_python,
+    file_name,
+)
 
 BANNER = Banner("red", (Layer("creeper", "lime"), Layer("gradient", "blue")))
 PICTURE = Settings(size=(40, 48), wind=5.0, samples=4, pixel=2, background="#302050", view="hero")
@@ -29,10 +38,10 @@ TIMES = ("--seconds", "0.5", "--fps", "10")
 TEXT = "red creeper:lime gradient:blue"
 
 COMMANDS = {
-    "png": ("render", TEXT, *WORDS),
+    **dict.fromkeys(STILLS, ("render", TEXT, *WORDS)),
     "face": ("flat", TEXT, "--scale", "5"),
-    **dict.fromkeys(("gif", "apng", "webp", "mp4"), ("animate", TEXT, *TIMES, *WORDS)),
-    "glb": ("model", TEXT, *TIMES, "--wind", "5", "--view", "hero"),
+    **dict.fromkeys(LOOPS, ("animate", TEXT, *TIMES, *WORDS)),
+    **dict.fromkeys(MODELS, ("model", TEXT, *TIMES, "--wind", "5", "--view", "hero")),
 }
 
 
@@ -55,7 +64,7 @@ def test_the_bytes_are_those_of_the_command(kind: str, tmp_path: Path, drapery) 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_turntable_is_of_animations(kind: str) -> None:
     wanted = ExportRequest(BANNER, Settings(turntable=True), kind, garment="cape")
-    is_loop = kind in ("gif", "apng", "webp", "mp4")
+    is_loop = kind in LOOPS
     assert ("--turntable" in as_command(wanted)) == is_loop
     assert ("turntable=True" in as_python(wanted)) == is_loop
 
@@ -91,7 +100,7 @@ def test_every_kind_is_tested() -> None:
 
 def test_every_kind_can_be_downloaded() -> None:
     names = [file_name(ExportRequest(BANNER, PICTURE, kind)) for kind in KINDS]
-    assert {Path(name).suffix for name in names} <= MEDIA_TYPES.keys()
+    assert all(format_of(name, *KIND_NAMES).media_type for name in names)
 
 
 def test_a_page_is_that_of_the_command(tmp_path: Path, drapery, playable) -> None:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from drapery.match.photo import match_photo
     from drapery.match.picture import (
         FITS,
+        PICTURE_FORMATS,
         WEIGHTINGS,
         PictureFace,
         decode_picture,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 __all__ = [
     "EFFORT",
     "FITS",
+    "PICTURE_FORMATS",
     "WEIGHTINGS",
     "Match",
     "MatchProgress",
@@ -61,6 +63,7 @@ __getattr__, __dir__ = lazy_names(
         "match.perspective": ("find_corners", "flat_face"),
         "match.photo": ("match_photo",),
         "match.picture": (
+            "PICTURE_FORMATS",
             "FITS",
             "WEIGHTINGS",
             "PictureFace",

@@ -25,7 +25,8 @@ WEIGHTINGS: tuple[Weighting, ...] = get_args(Weighting)
 
 MAX_BYTES = 64 << 20
 _PNG = b"\x89PNG\r\n\x1a\n"
-_FORMATS = ("PNG", "JPEG", "WEBP")
+PICTURE_FORMATS = ("PNG", "JPEG", "WEBP")
+"""The formats of pictures that banners are found for, by Pillow's names."""
 
 PITCH = (24, 48)
 """From one banner of a mural to the next, across and down [texels]; 24 are a block."""
@@ -71,7 +72,7 @@ def decode_picture(data: bytes, name: str = "the picture") -> Texels:
             return read_png(data, name)
         except PackError as error:
             raise OptionError(str(error)) from None
-    with opened_picture(data, name, _FORMATS) as image:
+    with opened_picture(data, name, PICTURE_FORMATS) as image:
         return pixels_of(ImageOps.exif_transpose(image))
 
 

@@ -17,6 +17,8 @@ from drapery.studio.document import Document
 from drapery.studio.snippets import (
     KINDS,
     LOOPS,
+    MODELS,
+    MOVING,
     SCALE,
     STILLS,
     ExportRequest,
@@ -59,9 +61,10 @@ def make(request: ExportRequest, path: Path, progress: Progress | None = None) -
     if request.kind in LOOPS:
         frames = _frames(request)
         save_animation(frames, fps, path, progress=lambda done, _: tick(done, total))
-    elif request.kind == "glb":
+    elif request.kind in MODELS:
         given = subject_of(request), path, options_for(request)
         save_model(*given, seconds=request.seconds, fps=fps, progress=tick)
+        tick(total, total)
     else:
         drawn = _drawn(request)
         tick(1, 1)
@@ -70,7 +73,7 @@ def make(request: ExportRequest, path: Path, progress: Progress | None = None) -
 
 def count_frames(request: ExportRequest) -> int:
     """The number of frames in the file; 1 for a file without motion. Raises OptionError."""
-    return frame_count(request.seconds, request.fps) if request.kind in (*LOOPS, "glb") else 1
+    return frame_count(request.seconds, request.fps) if request.kind in MOVING else 1
 
 
 def check(request: ExportRequest) -> None:

@@ -13,23 +13,13 @@ from fastapi.responses import FileResponse, JSONResponse
 
 from drapery import DesignError, DraperyError
 from drapery.banner import parse_banner
+from drapery.file_formats import KIND_NAMES, format_of
 from drapery.packs import Packs, open_packs
 from drapery.studio.art import face_png, pattern_rows, pattern_sheet, style_png
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import banner_of
 from drapery.studio.uploads import PURPOSES, shown_bytes, shown_name
 from drapery.styles import style_names
-
-MEDIA_TYPES = {
-    ".png": "image/png",
-    ".apng": "image/apng",
-    ".gif": "image/gif",
-    ".webp": "image/webp",
-    ".mp4": "video/mp4",
-    ".glb": "model/gltf-binary",
-    ".json": "application/json",
-    ".html": "text/html; charset=utf-8",
-}
 
 CACHING = "private, max-age=3600"
 """The addresses of pictures change whenever their content does."""
@@ -119,7 +109,7 @@ def _add_downloads(app: FastAPI, session_of: SessionOf) -> None:
         export = session_of(token).exports.finished(number)
         if export is None:
             raise HTTPException(404, "no such export: make it again")
-        media_type = MEDIA_TYPES[export.path.suffix]
+        media_type = format_of(export.path, *KIND_NAMES).media_type
         return FileResponse(export.path, media_type=media_type, headers=_attachment(export.name))
 
     @app.get("/library/{token}")
@@ -130,7 +120,7 @@ def _add_downloads(app: FastAPI, session_of: SessionOf) -> None:
         except DraperyError as error:
             raise HTTPException(409, str(error)) from None
         headers = _attachment("drapery-library.json")
-        return Response(data, media_type=MEDIA_TYPES[".json"], headers=headers)
+        return Response(data, media_type="application/json", headers=headers)
 
 
 def _attachment(name: str) -> dict[str, str]:

@@ -9,6 +9,7 @@ from typing import Any
 
 from drapery import Banner, Settings
 from drapery.banner import write_banner
+from drapery.file_formats import formats_of
 from drapery.garments import (
     Garment,
     PlayerSettings,
@@ -20,18 +21,24 @@ from drapery.scenes import Clip, SceneEntry, find_scene
 from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, applicable, frame_count
 from drapery.studio.chosen_scene import SceneChoice
 
-STILLS = ("png",)
-LOOPS = ("gif", "apng", "webp", "mp4")
-KINDS = (*STILLS, "face", *LOOPS, "glb", "html", "json")
-"""The kinds of files: `face` is the flat face without cloth, `html` is a page with live cloth,
-`json` is the design itself."""
+FORMATS = {
+    each.ending[1:]: each for each in formats_of("still", "loop", "model", "page") if each.single
+}
+"""The formats of exports by their endings, without the dot."""
+KINDS = (*FORMATS, "face", "json")
+"""The kinds of files: endings, `face`, the flat face without cloth, and `json`, the design."""
+STILLS = tuple(kind for kind, format in FORMATS.items() if format.kind() == "still")
+LOOPS = tuple(kind for kind, format in FORMATS.items() if format.kind() == "loop")
+MODELS = tuple(kind for kind, format in FORMATS.items() if format.kind() == "model")
+MOVING = (*LOOPS, *(kind for kind in MODELS if FORMATS[kind].moving))
+"""The kinds that have a length."""
 
 SCALE = Option("scale", "Pixels of a texel", int, 8, bounds=(1, 256), unit="pixels")
 """The option `--scale` of `drapery flat`."""
 OUTPUTS: dict[str, Output] = {
-    "png": "still",
+    **dict.fromkeys(STILLS, "still"),
     **dict.fromkeys(LOOPS, "loop"),
-    "glb": "model",
+    **dict.fromkeys(MODELS, "model"),
     "face": "face",
     "html": "page",
 }
@@ -157,7 +164,7 @@ def as_command(
     out = _quoted(file_name(request, stem))
     if request.kind == "json":
         return " ".join(["drapery show", *design, "--as json", ">", out])
-    command = _COMMANDS.get(request.kind, "animate")
+    command = _COMMANDS[OUTPUTS[request.kind]]
     if player is not None:
         command, design = "player", [*_player_flags(player, called or {})]
     elif found is not None:
@@ -178,7 +185,7 @@ def as_python(
     banner = [] if found is None and request.banner is None else ["banner"]
     settings = _keywords(_changed(request, called or {}))
     named = [*_keywords(_timing(request)), *settings]
-    imported, line = _PYTHON["loop" if request.kind in LOOPS else request.kind]
+    imported, line = _PYTHON[OUTPUTS.get(request.kind, request.kind)]
     subject = banner or ["None"]
     words = {"drawn": banner + named, "model": [*subject, out, *named], "settings": settings}
     joined = {name: ", ".join(each) for name, each in words.items()}
@@ -243,7 +250,13 @@ def style_names_of(request: ExportRequest) -> tuple[str, ...]:
     return tuple(map(str, style if isinstance(style, tuple) else (style,)))
 
 
-_COMMANDS = {"png": "render", "face": "flat", "glb": "model", "html": "web"}
+_COMMANDS = {
+    "still": "render",
+    "loop": "animate",
+    "model": "model",
+    "face": "flat",
+    "page": "web",
+}
 
 
 def _names(request: ExportRequest) -> tuple[str, ...]:
@@ -280,7 +293,7 @@ def _timing(request: ExportRequest) -> dict[str, Any]:
         return {} if request.scale == SCALE.default else {"scale": request.scale}
     if request.kind == "html":
         return {"size": request.settings.size}  # the command has another default
-    if request.kind in STILLS:
+    if request.kind not in MOVING:
         return {}
     chosen = {"seconds": request.seconds, "fps": request.fps}
     return {name: value for name, value in chosen.items() if value != LOOP_OPTIONS[name].default}
@@ -333,11 +346,11 @@ def _imports(names: list[str]) -> list[str]:
 
 
 _PYTHON = {
-    "png": ("drapery.draw", "draw({drawn}).save({out})"),
+    "still": ("drapery.draw", "draw({drawn}).save({out})"),
     "loop": ("drapery.animate", "animate({drawn}).save({out})"),
     "face": ("drapery.draw_face", "draw_face({drawn}).save({out})"),
-    "glb": ("drapery.save_model", "save_model({model})"),
-    "html": (
+    "model": ("drapery.save_model", "save_model({model})"),
+    "page": (
         "pathlib.Path drapery.Settings drapery.web.page.write_page",
         "write_page(Path({out}), {subject}, Settings({settings}))",
     ),

@@ -13,6 +13,8 @@ from pathlib import Path, PurePosixPath
 
 from drapery import DesignError
 from drapery.errors import counted
+from drapery.file_formats import endings_read
+from drapery.match import PICTURE_FORMATS
 from drapery.studio.document import Document
 
 
@@ -41,7 +43,7 @@ PURPOSES = {
     "library": Purpose(64 << 20, 1),
     "garment": Purpose(1 << 16, 1, frozenset((".toml",))),
     "skin": Purpose(4 << 20, 1, frozenset((".png",))),
-    "picture": Purpose(64 << 20, 2, frozenset((".png", ".jpg", ".jpeg", ".webp"))),
+    "picture": Purpose(64 << 20, 2, frozenset(endings_read(PICTURE_FORMATS))),
     # A region file with all its chunks is about 16 MiB.
     "design": Purpose(64 << 20, 8, _DESIGN_ENDINGS),
 }

@@ -15,31 +15,21 @@ from drapery.studio.descriptions import choice_titles, view_title
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
-from drapery.studio.snippets import LOOPS, SCALE, ExportRequest
+from drapery.studio.snippets import (
+    FORMATS,
+    KINDS,
+    LOOPS,
+    MODELS,
+    MOVING,
+    SCALE,
+    STILLS,
+    ExportRequest,
+)
 from drapery.studio.translation import translated
 from drapery.studio.viewport import ViewportRequest
 from drapery.studio.widgets import text_element
 
-KINDS = {
-    "png": "PNG, a still",
-    "face": "PNG, the flat face",
-    "gif": "GIF, waving",
-    "apng": "APNG, waving",
-    "webp": "WebP, waving",
-    "mp4": "MP4, waving",
-    "glb": "GLB, a 3-D model that waves",
-    "html": "Web page, live cloth",
-    "json": "JSON, the design",
-}
-HINTS = {
-    "gif": "A GIF has no half transparency and at most 50 frames/s.",
-    "mp4": "A video has no transparency: without a background it is white.",
-    "glb": "The model has its own size and light; it loops in Blender and on the web.",
-    "html": "One file that waves in any browser, without this studio; it can be turned and pulled.",
-    "face": "As banner sites show it; the wind has no effect.",
-}
-PICTURES = frozenset({"png", *LOOPS})
-MOVING = frozenset({*LOOPS, "glb"})
+PICTURES = frozenset({*STILLS, *LOOPS})
 GROUNDS = {"transparent": "transparent", "colour": "one colour"}
 SKY = "#a8c8e8"
 
@@ -94,7 +84,8 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
         fields.number(label, option, get, lambda number: choice.set(**{option.name: number}))
 
     with ui.element("div").classes("options"):
-        fields.choice("File", KINDS, lambda: choice.kind, lambda kind: choice.set(kind=kind))
+        titles = {kind: title_of(kind) for kind in KINDS}
+        fields.choice("File", titles, lambda: choice.kind, lambda kind: choice.set(kind=kind))
         with only(PICTURES | {"html"}):
             _sides(session, fields)
         with only(MOVING):
@@ -104,11 +95,11 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
             fields.option("turntable", "Turntable")
         with only("face"):
             number("Pixels a texel", SCALE)
-        with only(PICTURES | {"glb", "html"}):
+        with only(PICTURES | {*MODELS, "html"}):
             views = {str(name): view_title(str(name)) for name in OPTIONS["view"].choices}
             fields.option("view", "View", views)
             fields.option("seed", "Gusts (seed)")
-        with only("png"):
+        with only({*STILLS, *MODELS}.difference(MOVING)):
             fields.option("time", "Seconds in the wind")
         with only(PICTURES):
             fields.option("samples", "Samples a pixel", _by_view("samples"))
@@ -124,11 +115,45 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
 
     def fit() -> None:
         fields.refresh()
-        hint.set_text(translated(HINTS.get(choice.kind, "")))
+        hint.set_text(translated(hint_of(choice.kind)))
         differs.set_text(translated(difference(session.viewport.request, choice.kind)))
         differs.set_visibility(bool(differs.text))
 
     return fit
+
+
+def title_of(kind: str) -> str:
+    """A kind of file as the page lists it."""
+    if kind == "face":
+        return "PNG, the flat face"
+    if kind == "json":
+        return "JSON, the design"
+    if kind == "html":
+        return "Web page, live cloth"
+    name = FORMATS[kind].name
+    if kind in LOOPS:
+        return f"{name}, waving"
+    if kind in STILLS:
+        return f"{name}, a still"
+    return f"{name}, a 3-D model that waves" if kind in MOVING else f"{name}, a 3-D model"
+
+
+def hint_of(kind: str) -> str:
+    """What its user should know of a kind of file; empty for nothing."""
+    if kind == "face":
+        return "As banner sites show it; the wind has no effect."
+    if kind == "html":
+        return (
+            "One file that waves in any browser, without this studio; it can be turned and pulled."
+        )
+    if kind in MODELS and kind in MOVING:
+        return "The model has its own size and light; it loops in Blender and on the web."
+    format = FORMATS.get(kind)
+    if format is not None and format.alpha == "bit":
+        return f"A {format.name} has no half transparency and at most {format.max_fps} frames/s."
+    if format is not None and format.alpha == "none":
+        return "A video has no transparency: without a background it is white."
+    return ""
 
 
 def _by_view(name: str) -> dict[str, str]:
@@ -172,7 +197,7 @@ def _background(session: Session, choice: FileChoice, fields: Fields) -> None:
 
 def difference(request: ViewportRequest, kind: str) -> str:
     """What the live banner shows but the file will not contain."""
-    if kind == "glb" and request.scene is not None:
+    if kind in MODELS and request.scene is not None:
         return "A 3-D model shows your banner, not the scene."
     is_other = any(request.shown)
     return "A web page shows your banner." if kind == "html" and is_other else ""

@@ -9,7 +9,16 @@ from starlette.concurrency import run_in_threadpool
 
 from drapery import Banner, DraperyError
 from drapery.banner import LOOM_LAYERS
-from drapery.match import Match, Matcher, MatchProgress, fit_picture, match_photo, read_picture
+from drapery.file_formats import endings_read
+from drapery.match import (
+    PICTURE_FORMATS,
+    Match,
+    Matcher,
+    MatchProgress,
+    fit_picture,
+    match_photo,
+    read_picture,
+)
 from drapery.packs import Packs
 from drapery.studio.descriptions import described
 from drapery.studio.design_buttons import DesignButton, DesignList
@@ -20,7 +29,6 @@ from drapery.studio.sketch import sketch_of
 from drapery.studio.translation import translated
 from drapery.studio.widgets import text_element, translated_text
 
-ENDINGS = ".png,.jpg,.jpeg,.webp"
 COUNT = 6
 """The most candidates."""
 EFFORT = 12
@@ -67,7 +75,7 @@ def build(session: Session) -> None:
         "picture",
         "Drop a picture here, or choose one",
         take,
-        endings=ENDINGS,
+        endings=",".join(endings_read(PICTURE_FORMATS)),
         tab="picture",
     )
     with ui.element("div").classes("options"):
