@@ -182,7 +182,7 @@ def test_a_mural_is_written_as_schematic_and_function(tmp_path: Path) -> None:
     again = read_designs(str(tmp_path / "mural.mcfunction"))
     assert [one.banner for one in again] == list(banners)
     assert mural.picture(open_packs(()), scale=1).pixels.shape == (88, 44, 4)
-    with pytest.raises(OptionError, match="do not fill"):
+    with pytest.raises(OptionError, match="4 banners cannot fill 2 x 3"):
         Mural(2, 3, banners)
 
 
