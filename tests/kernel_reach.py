@@ -13,7 +13,7 @@ from importlib.util import resolve_name
 from itertools import chain
 from typing import NamedTuple
 
-from test_import_contract import modules
+from source_modules import modules
 
 COMPILERS = ("drapery.jit", "drapery.jit_calls", "numba")
 """Modules that make kernels."""

@@ -10,7 +10,7 @@ import av
 import numpy as np
 import pytest
 from conftest import Run
-from test_import_contract import modules
+from source_modules import modules
 
 from drapery.comparison import read_picture
 from drapery.errors import OptionError

@@ -7,17 +7,9 @@ from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from importlib import import_module
-from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).parent.parent
-FOLDERS = {
-    "drapery": ROOT / "drapery",
-    "drapery.render": ROOT / "render",
-    "drapery.assets": ROOT / "assets",
-}
-NOT_INSTALLED = ROOT / "assets" / "drawing"
+from source_modules import FOLDERS, ROOT, modules
 
 FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
@@ -92,19 +84,6 @@ PUBLIC = {
     *(f"drapery.{name}" for name in FOUNDATION),
 }
 """Modules whose names others may import."""
-
-
-@cache
-def modules() -> dict[str, Path]:
-    found = {}
-    for package, folder in FOLDERS.items():
-        for path in sorted(folder.rglob("*.py")):
-            if NOT_INSTALLED in path.parents:
-                continue
-            parts = path.relative_to(folder).with_suffix("").parts
-            name = ".".join((package, *parts)).removesuffix(".__init__")
-            found[name] = path
-    return found
 
 
 def package_of(name: str) -> str:

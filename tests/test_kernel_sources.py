@@ -14,7 +14,7 @@ from pathlib import Path
 import kernel_reach
 import pytest
 from kernel_reach import WHOLE, Place, functions, kernels, last_line, reached
-from test_import_contract import FOLDERS, modules
+from source_modules import FOLDERS, modules
 
 from drapery import kernel_sources
 from drapery.jit import EntryPoint, Kernel

@@ -4,8 +4,7 @@ import ast
 from collections.abc import Iterator
 
 import pytest
-from test_import_contract import modules
-from test_swallowed_errors import names_of
+from source_modules import modules, names_of
 
 TEXTS = {"args", "message", "msg", "problem", "context", "reason"}
 """Attributes of errors that hold a text."""

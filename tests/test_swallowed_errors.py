@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_import_contract import modules
+from source_modules import modules, names_of
 
 from drapery.banner.formats.files import _world_files
 from drapery.banner.packs.folders import FolderSource
@@ -19,14 +19,6 @@ from drapery.studio.document import Document
 ANY = {"Exception", "BaseException"}
 BROAD = {"OSError", "IOError", "EnvironmentError", "DraperyError", "RuntimeError", "Warning"}
 """Classes of errors of many causes. Such a handler says in a comment why nobody need know."""
-
-
-def names_of(node: ast.expr | None) -> set[str]:
-    """The last names of the classes of errors; those of a handler without one are all."""
-    if node is None:
-        return {"BaseException"}
-    parts = node.elts if isinstance(node, ast.Tuple) else [node]
-    return {part.attr if isinstance(part, ast.Attribute) else ast.unparse(part) for part in parts}
 
 
 def tells(handler: ast.ExceptHandler) -> bool:
