@@ -12,8 +12,8 @@ from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.dots import CapeTweaks, dot_grid, step
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.hero import LEGS, sprite
+from drapery.style.sheet import Sheet, grid_lattice
 from drapery.styles.shape_steps import boards, voxels
-from drapery.styles.sheet import Sheet, grid_lattice
 
 NONE = CapeTweaks(False, False, False, False)
 

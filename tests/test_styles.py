@@ -24,6 +24,7 @@ from drapery.render import Buffers, Camera, Scene, draw_scene
 from drapery.serve.request_params import ServiceConfig, read_request
 from drapery.sheets import styles_sheet
 from drapery.style import FLAG_MAPPING, FLAG_SIZE
+from drapery.style.sheet import grid_lattice
 from drapery.styles import (
     STEPS,
     Canvas,
@@ -36,7 +37,6 @@ from drapery.styles import (
 )
 from drapery.styles.catalogue import PRESETS
 from drapery.styles.loading import MAX_BYTES, MAX_STEPS
-from drapery.styles.sheet import grid_lattice
 from drapery.styles.style import MAX_SAMPLES
 
 BANNER = Banner.parse("white creeper:lime border:black")

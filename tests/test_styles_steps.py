@@ -15,9 +15,9 @@ from drapery.packs import open_packs
 from drapery.render import Material, TextureLayer
 from drapery.scenes import still
 from drapery.style import FLAG_SIZE, flag_material
+from drapery.style.sheet import grid_lattice
 from drapery.styles import STEPS, Sheet, Style, StyleStep, find_style
 from drapery.styles.palette_files import read_palette
-from drapery.styles.sheet import grid_lattice
 from drapery.styles.void_and_cluster import LEVELS, SIDE, blue_noise
 
 MOTION, PICTURE, SHAPE, MATERIAL = (

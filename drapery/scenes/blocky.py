@@ -32,9 +32,9 @@ from drapery.scenes.picture_grid import PictureGrid, panel_size
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.block_world import blocks, plateau
 from drapery.style.scenery import SKY, shadow
+from drapery.style.sheet import Sheet, grid_lattice
 from drapery.style.tailoring import ClothModel, garment
 from drapery.styles.shape_steps import boards, voxels
-from drapery.styles.sheet import Sheet, grid_lattice
 
 BLOCK = BannerBlock((-0.5, 0, -0.5))
 SIDE_ON = View(azimuth=42, elevation=10, fov=26)

@@ -47,9 +47,9 @@ from drapery.style.block import turn
 from drapery.style.body import Body, Panel, Part, Solid
 from drapery.style.extrusion import Shell, make_shell, thicken
 from drapery.style.kinds import body_of
+from drapery.style.sheet import Sheet, grid_lattice
 from drapery.style.uv_mapping import UVMapping
 from drapery.styles.catalogue import combined_style
-from drapery.styles.sheet import Sheet, grid_lattice
 
 STEP = 1.0 / 60.0
 """The longest time step of a picture, and the time step of live cloth [s]."""

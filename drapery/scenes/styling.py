@@ -15,8 +15,8 @@ from drapery.render.light import STUDIO_LIGHT, UNLIT
 from drapery.render.scene import Model, Scene
 from drapery.scenes.picture_grid import Picture, PictureGrid
 from drapery.style.extrusion import Shell, thicken
+from drapery.style.sheet import Lattice, Sheet, grid_lattice
 from drapery.style.tailoring import ClothModel, ClothSheet
-from drapery.styles.sheet import Lattice, Sheet, grid_lattice
 from drapery.styles.style import Style
 
 DrawScene = Callable[[Scene], Frame]

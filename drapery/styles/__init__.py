@@ -26,9 +26,9 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from drapery.style.sheet import Lattice, Sheet
     from drapery.styles.canvas import Canvas
     from drapery.styles.catalogue import StyleLike, combined_style, find_style, style_names
-    from drapery.styles.sheet import Lattice, Sheet
     from drapery.styles.step import StepKind, StyleStep, over_time
     from drapery.styles.steps import STEPS
     from drapery.styles.style import Style
@@ -53,7 +53,7 @@ __getattr__, __dir__ = lazy_names(
     {
         "styles.canvas": ("Canvas",),
         "styles.catalogue": ("StyleLike", "combined_style", "find_style", "style_names"),
-        "styles.sheet": ("Lattice", "Sheet"),
+        "style.sheet": ("Lattice", "Sheet"),
         "styles.step": ("StepKind", "StyleStep", "over_time"),
         "styles.steps": ("STEPS",),
         "styles.style": ("Style",),

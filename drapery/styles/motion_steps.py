@@ -8,7 +8,7 @@ from pydantic import Field
 
 from drapery.elementary import arctan2, cos, sin
 from drapery.mesh import Array
-from drapery.styles.sheet import Sheet
+from drapery.style.sheet import Sheet
 
 LOOSE = 0.7
 """A snapped angle stays until the angle of the cloth is so many steps away, so it does not flicker

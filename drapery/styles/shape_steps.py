@@ -11,8 +11,8 @@ from drapery.elementary import arctan2, cos, sin
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.vectors import dots
+from drapery.style.sheet import Sheet, grid_lattice, without_cells
 from drapery.style.uv_mapping import UVMapping
-from drapery.styles.sheet import Sheet, grid_lattice, without_cells
 from drapery.styles.step import costs
 
 MAX_PARTICLES = 257

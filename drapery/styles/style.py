@@ -18,10 +18,10 @@ from drapery.render.frame import Frame
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
 from drapery.settings import Lighting, Settings
+from drapery.style.sheet import Sheet
 from drapery.styles.canvas import Canvas, laid_over
 from drapery.styles.chain import chain_fault, makes_pixels
 from drapery.styles.colours import as_pixels
-from drapery.styles.sheet import Sheet
 from drapery.styles.step import StepKind, StyleStep, as_toml, parameter_lines
 
 CLEAR = (0, 0, 0, 0)
