@@ -12,7 +12,8 @@ from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.dots import CapeTweaks, dot_grid, step
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.hero import LEGS, sprite
-from drapery.style.sheet import Sheet, grid_lattice
+from drapery.style.sheet import Sheet
+from drapery.styles.grids import grid_shell
 from drapery.styles.shape_steps import boards, voxels
 
 NONE = CapeTweaks(False, False, False, False)
@@ -147,7 +148,7 @@ def crumpled(flat: bool = False) -> Sheet:
     rows[1:, :, 1] = -0.3 * np.cumsum(np.cos(bends))[:, None]
     rows[1:, :, 2] = 0.3 * np.cumsum(np.sin(bends))[:, None]
     positions = rows.reshape(-1, 3) * [1, 1, 0 if flat else 1]
-    return Sheet(positions, grid_lattice(6, 3), SCALE, SCALE, FLAG_SIZE, FLAG_MAPPING)
+    return Sheet(positions, grid_shell(6, 3, FLAG_MAPPING), SCALE, SCALE, FLAG_SIZE)
 
 
 @pytest.mark.parametrize("steps", [1, 4, 7])

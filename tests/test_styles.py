@@ -24,7 +24,6 @@ from drapery.render import Buffers, Camera, Scene, draw_scene
 from drapery.serve.request_params import ServiceConfig, read_request
 from drapery.sheets import styles_sheet
 from drapery.style import FLAG_MAPPING, FLAG_SIZE
-from drapery.style.sheet import grid_lattice
 from drapery.styles import (
     STEPS,
     Canvas,
@@ -36,6 +35,7 @@ from drapery.styles import (
     style_names,
 )
 from drapery.styles.catalogue import PRESETS
+from drapery.styles.grids import grid_shell
 from drapery.styles.loading import MAX_BYTES, MAX_STEPS
 from drapery.styles.style import MAX_SAMPLES
 
@@ -48,8 +48,7 @@ def rippled(rows: int = 9, columns: int = 5) -> Sheet:
     """A flag that hangs in shallow waves."""
     rest = grid(columns, rows, *FLAG_SIZE).rest_positions
     waves = 0.1 * np.sin(4 * rest[:, 1:2] + 2 * rest[:, :1]) * [0.2, 0.1, 1]
-    lattice = grid_lattice(rows, columns)
-    return Sheet(rest + waves, lattice, TEXEL, TEXEL, FLAG_SIZE, FLAG_MAPPING)
+    return Sheet(rest + waves, grid_shell(rows, columns, FLAG_MAPPING), TEXEL, TEXEL, FLAG_SIZE)
 
 
 def no_buffers() -> Buffers:

@@ -34,7 +34,7 @@ def drift(sheet: Sheet) -> Sheet:
 
 def bare(sheet: Sheet) -> Mesh:
     """A sheet without its back."""
-    mesh, part = sheet.mesh(), len(sheet.lattice.triangles)
+    mesh, part = sheet.mesh(), len(sheet.shell.sheet)
     return replace(mesh, triangles=mesh.triangles[:part])
 
 

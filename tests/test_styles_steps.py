@@ -14,9 +14,9 @@ from drapery.errors import OptionError
 from drapery.packs import open_packs
 from drapery.render import Material, TextureLayer
 from drapery.scenes import still
-from drapery.style import FLAG_SIZE, flag_material
-from drapery.style.sheet import grid_lattice
+from drapery.style import FLAG_MAPPING, FLAG_SIZE, flag_material
 from drapery.styles import STEPS, Sheet, Style, StyleStep, find_style
+from drapery.styles.grids import grid_shell
 from drapery.styles.palette_files import read_palette
 from drapery.styles.void_and_cluster import LEVELS, SIDE, blue_noise
 
@@ -32,9 +32,10 @@ def swaying(sideways: bool = False, count: int = 12) -> Sheet:
     """A flag that swings about its top edge, or its left one, and waves; a loop of `count`."""
     sheet = rippled()
     turn, waves = 2 * np.pi * np.arange(count) / count, sheet.positions[:, 2] - 0.02
-    far = sheet.lattice.uvs[:, 0 if sideways else 1]
+    far = sheet.shell.sheet_uvs[:, 0 if sideways else 1]
     ahead = 0.8 * np.sin(turn)[:, None] * far + np.cos(turn)[:, None] * far * waves
-    flat = grid(sheet.lattice.columns, sheet.lattice.rows, *FLAG_SIZE).rest_positions
+    rows, columns = sheet.grid_shape
+    flat = grid(columns, rows, *FLAG_SIZE).rest_positions
     moving = flat + ahead[..., None] * [0.0, 0.0, 1.0]
     return replace(sheet, positions=moving)
 
@@ -122,10 +123,11 @@ def test_a_still_has_snapped_angles_too() -> None:
 
 
 def cells(name: str, **parameters: object) -> np.ndarray:
-    """Which cells of its lattice a shape step keeps: the number of its triangles in each row."""
-    lattice = SHAPE[name](rippled(), **parameters).lattice
-    rows = (lattice.uvs[lattice.triangles].mean(axis=1)[:, 1] * (lattice.rows - 1)).astype(int)
-    return np.bincount(rows, minlength=lattice.rows - 1) // 2
+    """Which cells of its grid a shape step keeps: half the number of its triangles in each row."""
+    shell = SHAPE[name](rippled(), **parameters).shell
+    down = len(np.unique(shell.sheet_uvs[:, 1])) - 1
+    rows = (shell.sheet_uvs[shell.sheet].mean(axis=1)[:, 1] * down).astype(int)
+    return np.bincount(rows, minlength=down) // 2
 
 
 def test_a_rounded_hem_is_widest_above_and_narrowest_below() -> None:
@@ -205,12 +207,12 @@ def test_a_palette_of_a_material_is_that_of_a_picture(tmp_path: Path) -> None:
 
 
 def test_tears_stay_within_a_low_sheet() -> None:
-    lattice = grid_lattice(9, 9)
+    shell = grid_shell(9, 9, FLAG_MAPPING)
     flat = np.zeros((81, 3))
-    flat[:, 0], flat[:, 1] = lattice.uvs[:, 0] * 0.5, -lattice.uvs[:, 1] * 0.5
-    low = replace(rippled(), positions=flat, lattice=lattice, size=(0.5, 0.5), texel=1 / 16)
+    flat[:, 0], flat[:, 1] = shell.sheet_uvs[:, 0] * 0.5, -shell.sheet_uvs[:, 1] * 0.5
+    low = replace(rippled(), positions=flat, shell=shell, size=(0.5, 0.5), texel=1 / 16)
     for seed in range(40):
-        assert len(SHAPE["tear"](low, depth=0.9, holes=40, seed=seed).lattice.triangles)
+        assert len(SHAPE["tear"](low, depth=0.9, holes=40, seed=seed).shell.sheet)
 
 
 def test_scanlines_darken_every_third_row() -> None:

@@ -18,7 +18,8 @@ from drapery.garments.textures import texture_of
 from drapery.mesh import Array, vertex_normals
 from drapery.render.scene import Material
 from drapery.style.extrusion import Shell, make_shell
-from drapery.style.tailoring import ClothModel, ClothSheet
+from drapery.style.sheet import Sheet
+from drapery.style.tailoring import ClothModel
 from drapery.style.visible import is_invisible
 
 LAYER = 2.5
@@ -36,14 +37,14 @@ BonePoses = Callable[[float], Mapping[str, BonePose]]
 class SewnPiece:
     """How a piece is drawn. particles: of the sewn cloth, for each vertex of the shell, shape [V].
 
-    size: width and height of a rectangle [m]; None for other shapes.
+    size: width and height of the piece [m].
     """
 
     name: str
     particles: Particles
     shell: Shell
     material: Material
-    size: tuple[float, float] | None
+    size: tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +99,8 @@ class SewnCloth:
             sheet = positions[piece.particles]
             thick = piece.shell.cover(sheet, normals[piece.particles], self.thickness)
             thin = None
-            if piece.size is not None and len(self.pieces) == 1:
-                thin = ClothSheet(piece.shell, sheet, self.thickness, self.texel, piece.size)
+            if piece.shell.grid is not None and len(self.pieces) == 1:
+                thin = Sheet(sheet, piece.shell, self.thickness, self.texel, piece.size)
             found.append(ClothModel(thick, (piece.material,), None, thin))
         return found
 
@@ -184,10 +185,10 @@ def _piece(
             stacklevel=2,
         )
     material = replace(material, transmission=garment.fabric.transmission)
-    shell = make_shell(cut.triangles, cut.uvs, mapping)
-    width, height = cut.size
     plain = isinstance(cut.piece, GridPiece) and cut.piece.hem is None
-    size = (width * garment.texel, height * garment.texel) if plain else None
+    shell = make_shell(cut.triangles, cut.uvs, mapping, cut.cloth.grid_shape if plain else None)
+    width, height = cut.size
+    size = (width * garment.texel, height * garment.texel)
     return SewnPiece(cut.piece.name, particles[cut.drawn], shell, material, size)
 
 

@@ -33,7 +33,7 @@ def flag_cloth(shape: tuple[int, int]) -> Cloth:
 
 def flag_shell(cloth: Cloth) -> Shell:
     """How a flag's thick, textured shell follows the flag."""
-    return make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING)
+    return make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING, cloth.grid_shape)
 
 
 def flags_at_rest(cloth: Cloth, banner_blocks: Sequence[BannerBlock]) -> State:

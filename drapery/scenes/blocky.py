@@ -29,10 +29,10 @@ from drapery.scenes.parameters import (
     wind_parameter,
 )
 from drapery.scenes.picture_grid import PictureGrid, panel_size
-from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
+from drapery.style.block import FLAG_SIZE, SCALE
 from drapery.style.block_world import blocks, plateau
 from drapery.style.scenery import SKY, shadow
-from drapery.style.sheet import Sheet, grid_lattice
+from drapery.style.sheet import Sheet
 from drapery.style.tailoring import ClothModel, garment
 from drapery.styles.shape_steps import boards, voxels
 
@@ -63,7 +63,7 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     count = 2 if parameters.pixel_snap else 1
     size = panel_size(clip.size, 2, count)
     cloth, materials = flag_cloth(parameters.grid), flag_materials((parameters.design,), packs)
-    shell, lattice = flag_shell(cloth), grid_lattice(parameters.grid[1], parameters.grid[0])
+    shell = flag_shell(cloth)
     still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wood_model((BLOCK,), packs))
     camera = frame_points(SIDE_ON, _framed_points(), size[0] / size[1], margin=0.05)
     velocity = (0.25 * parameters.wind, 0.0, 0.97 * parameters.wind)
@@ -71,7 +71,7 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     start = flags_at_rest(cloth, (BLOCK,))
     labels = ("smooth", counted(parameters.steps, "step"), "pixel-snap", "both")
     for state in motion(cloth, clip, forces=forces, start=start, settle=2 * LOOP, step=1 / 60):
-        smooth = Sheet(state.positions[0], lattice, SCALE, SCALE, FLAG_SIZE, FLAG_MAPPING)
+        smooth = Sheet(state.positions[0], shell, SCALE, SCALE, FLAG_SIZE)
         sheets = smooth, boards(smooth, steps=parameters.steps)
         flags = [
             garment(shell, s.positions, SCALE, *materials, size=FLAG_SIZE, texel=SCALE)

@@ -57,8 +57,9 @@ def show(corners: PinName, parameters: CornersParameters, clip: Clip) -> Iterato
     """The cloth between posts at its pinned corners."""
     packs, sewn = open_packs(()), level_cloth(corners, parameters)
     wool = checked(packs.texture("block/white_wool"), ("cyan", "white"))
-    shell = make_shell(sewn.pieces[0].shell.sheet, sewn.pieces[0].shell.sheet_uvs)
-    drawn = replace(sewn, pieces=(replace(sewn.pieces[0], shell=shell, material=wool),))
+    (piece,) = sewn.pieces
+    shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs, grid=piece.shell.grid)
+    drawn = replace(sewn, pieces=(replace(piece, shell=shell, material=wool),))
     pins = sewn.start[sewn.cloth.inv_mass == 0]
     posts = tuple(post(pin * np.array([1, 0, 1]), HEIGHT + 0.06, packs) for pin in pins)
     still = (*blocks(plateau(4, 4), packs), *posts)

@@ -70,7 +70,7 @@ def play(parameters: FreefallParameters, clip: Clip) -> Iterator[Scene]:
 def _chequered(sewn: SewnCloth, dyes: tuple[str, str], wool: Texels) -> SewnCloth:
     """A cloth of squares of two dyes."""
     (piece,) = sewn.pieces
-    shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs)
+    shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs, grid=piece.shell.grid)
     drawn = replace(piece, shell=shell, material=checked(wool, dyes))
     return replace(sewn, pieces=(drawn,))
 

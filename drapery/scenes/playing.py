@@ -26,7 +26,6 @@ from drapery.scenes.stager import (
     cloth_at_rest,
     cloth_spec,
     forces_of,
-    grid_shell,
     scene_at,
     wind_of,
 )
@@ -34,6 +33,7 @@ from drapery.settings import Settings
 from drapery.style.block import turn_centre, turn_matrix
 from drapery.style.body import Body, Panel
 from drapery.style.live_shell import LiveShell, cover, make_live_shell
+from drapery.styles.grids import grid_shell
 
 SPARE = MAX_LAYERS + 2
 """Layers of a design: the bare cloth, its base and its patterns."""
@@ -147,14 +147,14 @@ def _live_panel(stager: Stager, panel: Panel, lanes: int | None, step: float = S
     sheltered = settings.placement == "wall" and isinstance(settings.wind, int | float)
     lee = (1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0)
     call = live_call(cloth_at_rest(spec, step), forces_of(settings, wind), wind, lee, lanes)
+    columns, rows = settings.grid
     shell = make_live_shell(
-        grid_shell(settings.grid, panel.uv_mapping),
+        grid_shell(rows, columns, panel.uv_mapping),
         panel.origin,
         settings.thickness * panel.texel,
         stager.light,
         *turning_of(settings),
     )
-    columns, rows = settings.grid
     size = list(map(float, panel.size))
     return make_live_panel(call, shell, {"columns": columns, "rows": rows, "size": size})
 

@@ -55,7 +55,7 @@ def play(parameters: ScarfParameters, clip: Clip) -> Iterator[Scene]:
     for sewn in tails(parameters):
         (piece,) = sewn.pieces
         shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs)
-        drawn = replace(piece, shell=shell, material=_material(squares, sewn), size=None)
+        drawn = replace(piece, shell=shell, material=_material(squares, sewn))
         states = tail_states(parameters, sewn, gait, clip)
         worn.append((replace(sewn, pieces=(drawn,)), states))
     collar = (Model(box, (_collar_material(squares),)),)

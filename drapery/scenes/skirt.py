@@ -57,7 +57,7 @@ def play(parameters: SkirtParameters, clip: Clip) -> Iterator[Scene]:
     """Seen from the front."""
     gait, sewn = Gait(parameters.speed), skirt_cloth(parameters)
     piece = sewn.pieces[0]
-    shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs, SIDES_OF_CLOTH)
+    shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs, SIDES_OF_CLOTH, piece.shell.grid)
     drawn = replace(piece, shell=shell, material=skirt_material(parameters, open_packs(())))
     worn = [(replace(sewn, pieces=(drawn,)), skirt_states(parameters, sewn, gait, clip))]
     return walk_scenes(parameters.skin, gait, clip, worn, view=BEFORE, tail=0.6)

@@ -45,11 +45,11 @@ from drapery.render.views import find_view, frame_view, turntable
 from drapery.settings import Settings, background_colour
 from drapery.style.block import turn
 from drapery.style.body import Body, Panel, Part, Solid
-from drapery.style.extrusion import Shell, make_shell, thicken
+from drapery.style.extrusion import Shell, thicken
 from drapery.style.kinds import body_of
-from drapery.style.sheet import Sheet, grid_lattice
-from drapery.style.uv_mapping import UVMapping
+from drapery.style.sheet import Sheet
 from drapery.styles.catalogue import combined_style
+from drapery.styles.grids import grid_shell
 
 STEP = 1.0 / 60.0
 """The longest time step of a picture, and the time step of live cloth [s]."""
@@ -310,13 +310,14 @@ class Stager:
     def _sheet(self, panel: Panel, positions: Array) -> Sheet:
         columns, rows = self.settings.grid
         thickness = self.settings.thickness * panel.texel
-        lattice, mapping = grid_lattice(rows, columns), panel.uv_mapping
-        return Sheet(positions, lattice, thickness, panel.texel, panel.size, mapping)
+        shell = grid_shell(rows, columns, panel.uv_mapping)
+        return Sheet(positions, shell, thickness, panel.texel, panel.size)
 
     def _thick(self, panel: Panel, sheet: Array) -> Mesh:
         if self.style.has("shape"):
             return self.turned(self.style.mesh(self._sheet(panel, sheet + panel.origin)))
-        shell = grid_shell(self.settings.grid, panel.uv_mapping)
+        columns, rows = self.settings.grid
+        shell = grid_shell(rows, columns, panel.uv_mapping)
         thickness = self.settings.thickness * panel.texel
         return self.turned(self._cover(shell, sheet + panel.origin, thickness))
 
@@ -424,13 +425,6 @@ def _phase(panel: Panel, time: float) -> float:
 
 def _specs(body: Body, settings: Settings) -> list[ClothSpec]:
     return [cloth_spec(panel, settings, body.solids) for panel in body.panels]
-
-
-@lru_cache(maxsize=16)
-def grid_shell(shape: tuple[int, int], uv_mapping: UVMapping) -> Shell:
-    """The shell of a grid of this shape: one object, which renderers recognise by identity."""
-    cloth = grid(*shape, 1.0, 1.0, pins="none")
-    return make_shell(cloth.triangles, cloth.uvs, uv_mapping)
 
 
 def flow(speed: float, direction: float | None) -> tuple[float, float, float]:

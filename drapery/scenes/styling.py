@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 from itertools import chain
 
 import numpy as np
@@ -14,9 +14,8 @@ from drapery.render.frame import Frame
 from drapery.render.light import STUDIO_LIGHT, UNLIT
 from drapery.render.scene import Model, Scene
 from drapery.scenes.picture_grid import Picture, PictureGrid
-from drapery.style.extrusion import Shell, thicken
-from drapery.style.sheet import Lattice, Sheet, grid_lattice
-from drapery.style.tailoring import ClothModel, ClothSheet
+from drapery.style.sheet import Sheet
+from drapery.style.tailoring import ClothModel
 from drapery.styles.style import Style
 
 DrawScene = Callable[[Scene], Frame]
@@ -74,7 +73,7 @@ def _single(picture: Picture) -> Scene | Frame:
     return picture
 
 
-def _sheets(scene: Scene) -> list[ClothSheet]:
+def _sheets(scene: Scene) -> list[Sheet]:
     """The rectangles of cloth in a scene."""
     models = (model for model in scene.models if isinstance(model, ClothModel))
     return [model.sheet for model in models if model.sheet is not None]
@@ -131,37 +130,19 @@ def tailored(model: Model, style: Style) -> Model:
         return model
     materials = tuple(style.material(material) for material in model.materials)
     mesh, sheet = model.mesh, model.sheet
-    lattice = None if sheet is None else _lattice(sheet.shell)
-    if sheet is not None and lattice is not None and style.has("shape"):
-        mesh = _shaped(sheet, lattice, style)
+    if sheet is not None and style.has("shape"):
+        mesh = _shaped(sheet, style)
     return replace(model, mesh=mesh, materials=materials)
 
 
-def _shaped(sheet: ClothSheet, lattice: Lattice, style: Style) -> Mesh:
+def _shaped(sheet: Sheet, style: Style) -> Mesh:
     """The mesh of a sheet, or of a batch of sheets, by the style's shape steps."""
     batch = sheet.positions.reshape(-1, *sheet.positions.shape[-2:])
-    meshes = [style.mesh(_thin(sheet, positions, lattice)) for positions in batch]
+    meshes = [style.mesh(replace(sheet, positions=positions)) for positions in batch]
     if sheet.positions.ndim == 2:
         return meshes[0]
     positions = np.stack([mesh.positions for mesh in meshes])
     return replace(meshes[0], positions=positions, normals=np.stack([m.normals for m in meshes]))
-
-
-def _thin(sheet: ClothSheet, positions: Array, lattice: Lattice) -> Sheet:
-    mapping = sheet.shell.uv_mapping
-    return Sheet(positions, lattice, sheet.thickness, sheet.texel, sheet.size, mapping)
-
-
-@lru_cache(maxsize=64)
-def _lattice(shell: Shell) -> Lattice | None:
-    """The lattice of a shell whose sheet is a grid of particles; None for other sheets."""
-    columns = int(np.count_nonzero(shell.sheet_uvs[:, 1] == shell.sheet_uvs[0, 1]))
-    rows = shell.count // columns
-    if rows < 2 or columns < 2 or rows * columns != shell.count:
-        return None
-    lattice = grid_lattice(rows, columns)
-    alike = np.array_equal(lattice.triangles, shell.sheet)
-    return lattice if alike and np.array_equal(lattice.uvs, shell.sheet_uvs) else None
 
 
 def _moved(pictures: list[Picture], style: Style) -> Iterator[Picture]:
@@ -189,20 +170,19 @@ def moved_by_style(frames: Sequence[Sequence[Model]], style: Style) -> list[list
     for place in range(min(map(len, models))):
         cloth = [frame[place] for frame in models]
         sheets = [model.sheet for model in cloth if isinstance(model, ClothModel) and model.sheet]
-        lattice = _lattice(sheets[0].shell) if len(sheets) == len(cloth) else None
-        if lattice is not None:
-            motion = _moved_positions(sheets, lattice, style)
+        if len(sheets) == len(cloth):
+            motion = _moved_positions(sheets, style)
             for frame, model, positions in zip(models, cloth, motion, strict=True):
                 frame[place] = _with_positions(model, positions)
     return models
 
 
-def _moved_positions(sheets: Sequence[ClothSheet], lattice: Lattice, style: Style) -> Array:
+def _moved_positions(sheets: Sequence[Sheet], style: Style) -> Array:
     """The positions of a sheet or batch at all moments after the motion steps."""
     motion = np.stack([sheet.positions for sheet in sheets])
     batch = motion.reshape(len(sheets), -1, *motion.shape[-2:])
     members = (batch[:, member] for member in range(batch.shape[1]))
-    moved = [style.move(_thin(sheets[0], member, lattice)).positions for member in members]
+    moved = [style.move(replace(sheets[0], positions=member)).positions for member in members]
     return np.stack(moved, axis=1).reshape(motion.shape)
 
 
@@ -210,4 +190,4 @@ def _with_positions(model: Model, positions: Array) -> Model:
     if not isinstance(model, ClothModel) or model.sheet is None:
         return model
     sheet = replace(model.sheet, positions=positions)
-    return replace(model, mesh=thicken(sheet.shell, positions, sheet.thickness), sheet=sheet)
+    return replace(model, mesh=sheet.mesh(), sheet=sheet)

@@ -43,6 +43,8 @@ class Shell:
     uvs: texture coordinates of all vertices, shape [2 N + 4 E, 2].
     sheet_uvs: texture coordinates of the thin sheet 0..1, shape [N, 2].
     uv_mapping: how `uvs` follow from them.
+    grid: (rows, columns) where the thin sheet is a whole grid, vertex = row * columns + column;
+        None for other sheets.
     """
 
     count: int
@@ -51,6 +53,7 @@ class Shell:
     uvs: Array
     sheet_uvs: Array
     uv_mapping: UVMapping = SHEET_MAPPING
+    grid: tuple[int, int] | None = None
 
     @cached_property
     def triangles(self) -> Triangles:
@@ -98,17 +101,23 @@ class Shell:
         )
 
 
-def make_shell(triangles: Triangles, uvs: Array, uv_mapping: UVMapping = SHEET_MAPPING) -> Shell:
+def make_shell(
+    triangles: Triangles,
+    uvs: Array,
+    uv_mapping: UVMapping = SHEET_MAPPING,
+    grid: tuple[int, int] | None = None,
+) -> Shell:
     """The constant part of thick cloths that share their triangles and texture coordinates.
 
     triangles: of the thin sheet, shape [T, 3]. uvs: its texture coordinates 0..1, shape [N, 2].
     uv_mapping: where its front, back and rim lie on the texture; the same picture on both sides
-    unless given. `Shell.cover` makes the mesh at each moment.
+    unless given. grid: (rows, columns) of a sheet that is a whole grid, which styles can change.
+    `Shell.cover` makes the mesh at each moment.
     """
     rim = boundary_edges(triangles)
     sheets = [uv_mapping.front(uvs), uv_mapping.back(uvs)]
     every = np.concatenate([*sheets, uv_mapping.rim(uvs, rim)])
-    return Shell(len(uvs), triangles, rim, every, uvs, uv_mapping)
+    return Shell(len(uvs), triangles, rim, every, uvs, uv_mapping, grid)
 
 
 def thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:

@@ -1,4 +1,4 @@
-"""Cloth between simulation and picture: what the motion and shape steps of a style change."""
+"""Thin cloth between simulation and picture, from which the thick one is made."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -6,7 +6,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth import grid
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh, Triangles
 from drapery.style.extrusion import Shell, make_shell, thicken
@@ -14,53 +13,31 @@ from drapery.style.uv_mapping import UVMapping
 
 
 @dataclass(frozen=True, eq=False)
-class Lattice:
-    """The constant part of a sheet: a grid of particles, of which some cells may be cut out.
-
-    rows, columns: of particles. triangles: [T, 3]. uvs: of the particles, 0..1 over the face from
-    its top left, shape [N, 2]. cut: whether cells are missing.
-    """
-
-    rows: int
-    columns: int
-    triangles: Triangles
-    uvs: Array
-    cut: bool = False
-
-
-@lru_cache(maxsize=64)
-def grid_lattice(rows: int, columns: int) -> Lattice:
-    """A whole grid with the triangles of a cloth; the same object for the same numbers."""
-    cloth = grid(columns, rows, 1.0, 1.0, pins="none")
-    return Lattice(rows, columns, cloth.triangles, cloth.uvs)
-
-
-def without_cells(lattice: Lattice, kept: NDArray[np.bool_]) -> Lattice:
-    """The lattice with only the cells that are kept, shape [rows - 1, columns - 1]."""
-    middles = lattice.uvs[lattice.triangles].mean(axis=1)
-    column = (middles[:, 0] * (lattice.columns - 1)).astype(np.int32)
-    row = (middles[:, 1] * (lattice.rows - 1)).astype(np.int32)
-    return replace(lattice, triangles=lattice.triangles[kept[row, column]], cut=True)
-
-
-@dataclass(frozen=True, eq=False)
 class Sheet:
-    """One panel of cloth as a thin grid, before it gets its thickness.
+    """Cloth before it gets its thickness: what the motion and shape steps of a style change.
 
     positions: of the particles [m], shape [N, 3] row by row from the top left, or [F, N, 3] for the
-        F moments of a motion; y is up and the front looks to +z at rest.
-    lattice: its triangles and texture coordinates.
-    thickness: of the cloth [m]. texel: the edge of a texel [m]. size: width and height [m].
-    uv_mapping: where front, back and rim lie on the texture. facets: whether edges are sharp.
+        F moments of a motion, or for F equal cloths; y is up and the front looks to +z at rest.
+    shell: its triangles, its texture coordinates and the surface around it.
+    thickness: of the cloth [m].
+    texel: the edge of a texel [m].
+    size: width and height [m].
+    facets: whether edges are sharp.
     """
 
     positions: Array
-    lattice: Lattice
+    shell: Shell
     thickness: float
     texel: float
     size: tuple[float, float]
-    uv_mapping: UVMapping
     facets: bool = False
+
+    @property
+    def grid_shape(self) -> tuple[int, int]:
+        """Rows and columns of particles. Raises OptionError for a sheet with cells cut out."""
+        if self.shell.grid is None:
+            raise OptionError("this step needs a whole sheet; put it before the step that cuts it")
+        return self.shell.grid
 
     @property
     def grid(self) -> Array:
@@ -68,16 +45,25 @@ class Sheet:
 
         Raises OptionError for a sheet with cells cut out.
         """
-        if self.lattice.cut:
-            raise OptionError("this step needs a whole sheet; put it before the step that cuts it")
-        rows, columns = self.lattice.rows, self.lattice.columns
-        return self.positions.reshape(*self.positions.shape[:-2], rows, columns, 3)
+        return self.positions.reshape(*self.positions.shape[:-2], *self.grid_shape, 3)
+
+    def without_cells(self, kept: NDArray[np.bool_], uv_mapping: UVMapping) -> "Sheet":
+        """The sheet with only the cells that are kept, shape [rows - 1, columns - 1].
+
+        uv_mapping: where its front, back and new rim lie on the texture.
+        Raises OptionError for a sheet with cells cut out.
+        """
+        (rows, columns), whole = self.grid_shape, self.shell
+        middles = whole.sheet_uvs[whole.sheet].mean(axis=1)
+        column = (middles[:, 0] * (columns - 1)).astype(np.int32)
+        row = (middles[:, 1] * (rows - 1)).astype(np.int32)
+        cut = make_shell(whole.sheet[kept[row, column]], whole.sheet_uvs, uv_mapping)
+        return replace(self, shell=cut)
 
     def mesh(self) -> Mesh:
         """The closed mesh: two sheets and a rim, along the averaged normals or with sharp edges."""
-        shell = _shell(self.lattice, self.uv_mapping)
-        thick = thicken(shell, self.positions, self.thickness)
-        return faceted(thick, _corners(shell)) if self.facets else thick
+        thick = thicken(self.shell, self.positions, self.thickness)
+        return faceted(thick, _corners(self.shell)) if self.facets else thick
 
 
 def faceted(mesh: Mesh, flat: "FlatCorners") -> Mesh:
@@ -97,11 +83,6 @@ class FlatCorners:
     corners: NDArray[np.int32]
     triangles: Triangles
     uvs: Array
-
-
-@lru_cache(maxsize=64)
-def _shell(lattice: Lattice, uv_mapping: UVMapping) -> Shell:
-    return make_shell(lattice.triangles, lattice.uvs, uv_mapping)
 
 
 @lru_cache(maxsize=64)

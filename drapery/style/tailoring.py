@@ -11,30 +11,17 @@ from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.scene import Material, Model, Texels, TextureLayer
 from drapery.style.extrusion import Shell, thicken
+from drapery.style.sheet import Sheet
 
 TEXEL = 1 / 16
 """The edge of a texel of a block [m]."""
 
 
 @dataclass(frozen=True, eq=False)
-class ClothSheet:
-    """The thin cloth of a model, from which a style makes another mesh.
-
-    positions: [m], shape [N, 3] or [B, N, 3]. thickness, texel: [m]. size: width and height [m].
-    """
-
-    shell: Shell
-    positions: Array
-    thickness: float
-    texel: float
-    size: tuple[float, float]
-
-
-@dataclass(frozen=True, eq=False)
 class ClothModel(Model):
     """A model that is cloth, so that styles change it. sheet: None if its shape must stay."""
 
-    sheet: ClothSheet | None = None
+    sheet: Sheet | None = None
 
 
 def garment(
@@ -48,10 +35,10 @@ def garment(
 ) -> ClothModel:
     """A cloth, or a batch of them, made thick; sheet, thickness: see `thicken`.
 
-    materials, index: as in `Model`. size: width and height of a rectangle at rest [m], None for
-    other shapes. texel: the edge of a texel [m].
+    materials, index: as in `Model`. size: width and height of a rectangle at rest [m], whose shell
+    has a grid; None for other shapes. texel: the edge of a texel [m].
     """
-    thin = None if size is None else ClothSheet(shell, sheet, thickness, texel, size)
+    thin = None if size is None else Sheet(sheet, shell, thickness, texel, size)
     return ClothModel(thicken(shell, sheet, thickness), materials, index, thin)
 
 

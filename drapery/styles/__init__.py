@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from drapery.style.sheet import Lattice, Sheet
+    from drapery.style.sheet import Sheet
     from drapery.styles.canvas import Canvas
     from drapery.styles.catalogue import StyleLike, combined_style, find_style, style_names
     from drapery.styles.step import StepKind, StyleStep, over_time
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 __all__ = [
     "STEPS",
     "Canvas",
-    "Lattice",
     "Sheet",
     "StepKind",
     "Style",
@@ -53,7 +52,7 @@ __getattr__, __dir__ = lazy_names(
     {
         "styles.canvas": ("Canvas",),
         "styles.catalogue": ("StyleLike", "combined_style", "find_style", "style_names"),
-        "style.sheet": ("Lattice", "Sheet"),
+        "style.sheet": ("Sheet",),
         "styles.step": ("StepKind", "StyleStep", "over_time"),
         "styles.steps": ("STEPS",),
         "styles.style": ("Style",),

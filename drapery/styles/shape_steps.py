@@ -11,8 +11,9 @@ from drapery.elementary import arctan2, cos, sin
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.vectors import dots
-from drapery.style.sheet import Sheet, grid_lattice, without_cells
+from drapery.style.sheet import Sheet
 from drapery.style.uv_mapping import UVMapping
+from drapery.styles.grids import grid_shell
 from drapery.styles.step import costs
 
 MAX_PARTICLES = 257
@@ -46,10 +47,8 @@ def smooth(
 
     The curves are Catmull and Rom's ("A class of local interpolating splines", 1974).
     """
-    lattice = sheet.lattice
     rows, columns = (
-        min((side - 1) * times + 1, max(MAX_PARTICLES, side))
-        for side in (lattice.rows, lattice.columns)
+        min((side - 1) * times + 1, max(MAX_PARTICLES, side)) for side in sheet.grid_shape
     )
     return _resampled(sheet, rows, columns, curved=True)
 
@@ -117,7 +116,7 @@ def voxels(sheet: Sheet) -> Mesh:
     deep = np.minimum(cells[..., 2], _least_beside(cells[..., 2], cells[:, 0, 0]) + 1)
     front = (lattice + cells * texel)[:, :, None] + texel / 2 * CUBE_FRONT
     back = front - np.array([0.0, 0.0, texel]) * (cells[..., 2] - deep + 1)[..., None, None]
-    uvs = _texel_uvs((across, down), sheet.uv_mapping)
+    uvs = _texel_uvs((across, down), sheet.shell.uv_mapping)
     return _blocks(front.reshape(-1, 4, 3), back.reshape(-1, 4, 3), uvs)
 
 
@@ -155,7 +154,7 @@ def level_texels(
     ]
     turned = [dots(block[..., None, :], axes.T) + rows[0, 0] for block in blocks]
     front, back = (block.reshape(-1, 4, 3) for block in turned)
-    return _blocks(front, back, _texel_uvs((across, down), sheet.uv_mapping))
+    return _blocks(front, back, _texel_uvs((across, down), sheet.shell.uv_mapping))
 
 
 @costs(4)
@@ -254,8 +253,7 @@ def _cut(sheet: Sheet, kept: NDArray[np.bool_]) -> Sheet:
     """The sheet without some of its texels. kept: shape [texels down, texels across]."""
     down, across = kept.shape
     fine = _resampled(sheet, down + 1, across + 1, curved=True)
-    lattice = without_cells(fine.lattice, kept)
-    return replace(fine, lattice=lattice, uv_mapping=CutMapping(sheet.uv_mapping))
+    return fine.without_cells(kept, CutMapping(sheet.shell.uv_mapping))
 
 
 def _held(kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -271,7 +269,9 @@ def _resampled(sheet: Sheet, rows: int, columns: int, *, curved: bool) -> Sheet:
     """The sheet at evenly spaced points of its grid, on straight lines or on curves."""
     points = _along(_along(sheet.grid, rows, -3, curved), columns, -2, curved)
     positions = points.reshape(*points.shape[:-3], rows * columns, 3)
-    return replace(sheet, positions=positions, lattice=grid_lattice(rows, columns))
+    return replace(
+        sheet, positions=positions, shell=grid_shell(rows, columns, sheet.shell.uv_mapping)
+    )
 
 
 def _along(points: Array, count: int, axis: int, curved: bool) -> Array:

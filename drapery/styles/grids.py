@@ -1,0 +1,16 @@
+"""Shells of whole grids of particles."""
+
+from functools import lru_cache
+
+from drapery.cloth import grid
+from drapery.style.extrusion import Shell, make_shell
+from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
+
+
+@lru_cache(maxsize=64)
+def grid_shell(rows: int, columns: int, uv_mapping: UVMapping = SHEET_MAPPING) -> Shell:
+    """The shell of a whole grid with the triangles of a cloth: one object for the same numbers,
+    which renderers recognise by identity.
+    """
+    cloth = grid(columns, rows, 1.0, 1.0, pins="none")
+    return make_shell(cloth.triangles, cloth.uvs, uv_mapping, cloth.grid_shape)
