@@ -9,15 +9,18 @@ from typing import Any
 import pytest
 from fastapi import Request
 from nicegui import Client, core, ui
+from nicegui.element import Element
 from nicegui.page import page
 from pack_maker import META, mcmeta, plain, zip_pack
 
 from drapery import Banner, Settings
 from drapery.errors import PackError
 from drapery.studio.design_buttons import DesignButton
+from drapery.studio.exports import Export, ExportRequest
 from drapery.studio.library import Library
 from drapery.studio.pack_store import PackStore
-from drapery.studio.panels import file_options, letters, motion, packs, start, steps
+from drapery.studio.panels import export, file_options, letters, motion, packs, start, steps
+from drapery.studio.panels.file_options import FileChoice
 from drapery.studio.panels.library import LibraryPanel
 from drapery.studio.records import Design
 from drapery.studio.session import Session, Sessions, StudioConfig
@@ -168,5 +171,37 @@ def test_elements_stay_where_they_are_while_packs_change(
         changed = [address for address in texts(client, "src") if address]
         assert len(changed) == len(addresses) > 2
         assert all(new != old for new, old in zip(changed, addresses, strict=True))
+
+    in_page(check)
+
+
+def test_progress_waits_for_a_page_that_is_busy(
+    in_page: Callable[..., None], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    async def check(client: Client, session: Session) -> None:
+        with client:
+            form = export._ExportForm(session, FileChoice())
+        request = ExportRequest(BANNER, session.settings)
+        work = form._own.current = Export(request, tmp_path / "x.png", "x.png", 1, 4)
+        answered, asked = asyncio.Event(), []
+
+        async def answer(code: str, timeout: float) -> None:
+            asked.append(code)
+            await answered.wait()
+
+        monkeypatch.setattr(client, "run_javascript", answer)
+        tick = asyncio.create_task(form._tick())
+        while not asked:
+            await asyncio.sleep(0)
+        assert not tick.done() and form._bar.props["value"] == 0.25
+        answered.set()
+        await tick
+        sent: list[Element] = []
+        monkeypatch.setattr(Element, "update", lambda element: sent.append(element))
+        form._show_progress(work)
+        assert sent == [], "what is unchanged is not sent again"
+        work.done = 2
+        form._show_progress(work)
+        assert form._bar in sent
 
     in_page(check)

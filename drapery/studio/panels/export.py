@@ -1,9 +1,10 @@
 """Output: picture, animation and model files, the share link, code to copy."""
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 
-from nicegui import ui
+from nicegui import context, ui
 
 from drapery import DraperyError
 from drapery.errors import counted
@@ -15,10 +16,12 @@ from drapery.studio.session import Session
 from drapery.studio.share import write_link
 from drapery.studio.snippets import as_command, as_python, file_name
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, text_element, translated_text
+from drapery.studio.widgets import button, set_props, text_element, translated_text
 
 TICK = 0.15
 """How often progress is shown [s]."""
+ANSWER = 10.0
+"""How long the page may take to show the progress, before more of it is sent [s]."""
 
 
 def build(session: Session) -> None:
@@ -57,7 +60,8 @@ class _ExportForm:
             self._words = text_element("").classes("hint").props("role=status")
             button("Stop the export", self._stop, text="Cancel")
         self._going.set_visibility(False)
-        self._timer = ui.timer(TICK, self._follow, active=False)
+        self._client = context.client
+        self._timer = ui.timer(TICK, self._tick, active=False)
         session.listen(self._hide_stale, "sketch", "settings", "packs", "scene")
         choice.changed.append(self._hide_stale)
 
@@ -94,6 +98,16 @@ class _ExportForm:
         if self._own.current is not None:
             self._own.current.stop()
 
+    async def _tick(self) -> None:
+        """Follow, and wait until the page has shown it.
+
+        Each change makes a page draw itself anew. On a loaded machine that takes longer than a
+        tick, and all that the page does would wait behind changes that it has not shown yet.
+        """
+        self._follow()
+        with suppress(TimeoutError):  # a page that is away, or too busy for that
+            await self._client.run_javascript("return true", timeout=ANSWER)
+
     def _follow(self) -> None:
         work = self._own.current
         runs = work is not None and work.state == "running"
@@ -106,8 +120,7 @@ class _ExportForm:
             self._finish(work)
 
     def _show_progress(self, work: Export) -> None:
-        self._bar.props["value"] = work.done / work.total
-        self._bar.update()
+        set_props(self._bar, {"value": work.done / work.total})
         still = translated("drawing" if work.total == 1 else "moving the cloth")
         frames = translated("{done} of {total} frames").format(done=work.done, total=work.total)
         self._words.set_text(frames if work.done else still)
