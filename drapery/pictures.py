@@ -10,11 +10,11 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.stack import PackLike
 from drapery.errors import DesignError, OptionError
-from drapery.option import Subject
+from drapery.option import Output
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
-from drapery.settings import Options, Settings, check_format, frame_count, settled
+from drapery.settings import Options, Settings, check_format, frame_count, settled_for
 
 if TYPE_CHECKING:
     from drapery.garments.model import Garment
@@ -34,7 +34,7 @@ def draw(
     Those of a garment's file count where neither gives others.
     Raises DesignError if `banner` is something else, OptionError, PackError or BackendError.
     """
-    design, chosen = _checked(banner, settings, options)
+    design, chosen = _checked(banner, settings, options, "still")
     packs = open_packs(chosen.packs, format=chosen.format)
     (frame,) = draw_scenes([_still(design, packs, chosen)], packs, chosen)
     return frame
@@ -71,7 +71,7 @@ def iter_frames(
     All arguments are checked, and all packs opened, before this returns.
     Raises the errors of `animate`.
     """
-    design, chosen = _checked(banner, settings, options)
+    design, chosen = _checked(banner, settings, options, "loop")
     packs = open_packs(chosen.packs, format=chosen.format)
     scenes = _loop(design, packs, chosen, seconds, fps)
     return draw_scenes(scenes, packs, chosen, loop=True)
@@ -98,7 +98,7 @@ def save_model(
     from drapery.render.encode import check_target
     from drapery.render.export import save_model as save_scenes
 
-    design, chosen = _checked(banner, settings, options)
+    design, chosen = _checked(banner, settings, options, "model")
     chosen = replace(chosen, ground="none")
     moves = check_target(path, "model").moving and seconds != 0
     packs = open_packs(chosen.packs, format=chosen.format)
@@ -224,13 +224,13 @@ def _loop(
 
 
 def _checked(
-    banner: object, settings: object, options: Options
+    banner: object, settings: object, options: Options, output: Output
 ) -> tuple["Banner | Garment | None", Settings]:
     if not (settings is None or isinstance(settings, Settings)):
         raise OptionError(f"settings {str(settings)[:40]!r} are not Settings; give options by name")
     chosen = (settings or Settings()).changed(**options)
     if banner is None or isinstance(banner, Banner):
-        return banner, settled(chosen, chosen.subject(banner.kind if banner else "banner"))
+        return banner, settled_for(banner, chosen, output)
     # Imported here: pictures of banners need no pydantic.
     from drapery.garments.model import Garment
 
@@ -238,7 +238,7 @@ def _checked(
         raise DesignError(
             f"{str(banner)[:40]!r} is not a Banner; read a text with Banner.parse(text)"
         )
-    chosen = settled(chosen, Subject("garment"), own=banner.picture)
+    chosen = settled_for(banner, chosen, output)
     texture = chosen.texture_path
     return banner if texture is None else banner.with_texture(texture), chosen
 

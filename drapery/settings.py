@@ -249,7 +249,7 @@ class Settings:
         unit="pixels",
         parts=("width", "height"),
         audience="anyone",
-        affects=("file",),
+        affects=("camera", "file"),
     )
     grid: tuple[int, int] = _option(
         (16, 31),
@@ -665,6 +665,14 @@ def settled(
     turned = given.get("view") in ("front", "back") and "rotation" not in given
     kept = {name: own[name] for name in own if not (turned and name == "rotation")}
     return Settings(**kept | given)
+
+
+def settled_for(design: Any, settings: Settings, output: Output) -> Settings:
+    """The same for a banner, a garment, or None for a cape, elytra or plain shield."""
+    own = getattr(design, "picture", None)
+    if own is not None:
+        return settled(settings, Subject("garment"), output, own)
+    return settled(settings, settings.subject(design.kind if design else "banner"), output)
 
 
 def _differ(value: object, other: object) -> bool:

@@ -14,7 +14,7 @@ from drapery import Banner, draw, settings
 from drapery.cloth import Drag, Fabric, Gravity, SolverXPBD, Wind
 from drapery.commands.app import command_line
 from drapery.errors import OptionError
-from drapery.option import Option, limits, one_of, shown, whole, within
+from drapery.option import Option, Output, limits, one_of, shown, whole, within
 from drapery.options import check_options
 from drapery.render.views import VIEWS, View
 from drapery.settings import (
@@ -79,11 +79,14 @@ def commands() -> dict[str, Any]:
     return found
 
 
-@pytest.mark.parametrize("command", ["render", "animate"])
-def test_the_command_line_has_every_option_once(command: str) -> None:
+@pytest.mark.parametrize(
+    ("command", "output"), [("render", "still"), ("animate", "loop"), ("model", "model")]
+)
+def test_the_command_line_has_every_option_once(command: str, output: Output) -> None:
     flags = [flag for each in commands()[command].params for flag in each.opts]
     for option in NAMED_OPTIONS.values():
-        assert flags.count(option.command_flag) == 1, option.name
+        expected = int(option.applies(output=output))
+        assert flags.count(option.command_flag) == expected, option.name
     helps = {each.opts[0]: each.help for each in commands()[command].params if each.opts}
     assert helps["--wind"] == "Mean wind speed (0 to 40 m/s)."
 

@@ -130,7 +130,7 @@ def test_a_garment_shows_the_design_where_its_file_has_one(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("names", "command"),
     [
-        (applicable(), render),
+        (applicable(output="still"), render),
         (applicable(output="loop"), animate),
         (applicable(output="model"), model),
         (applicable(output="face"), flat),

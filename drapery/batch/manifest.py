@@ -16,7 +16,7 @@ from drapery.file_formats import FileFormat, formats_of, known_format
 from drapery.option import Option, Subject, shown
 from drapery.options import check_options, one_line, unknown_names
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
-from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
+from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings, settled_for
 from drapery.user_files import reason
 
 if TYPE_CHECKING:
@@ -202,6 +202,11 @@ def _request(
         banner, settings = _player(player, folder, faults, given)
     out = _out(fields, row, number, ending, faults)
     times = _times(out, fields, faults)
+    if not (faults or isinstance(settings, list)):
+        try:
+            settled_for(banner, settings, "still" if times[0] is None else "loop")
+        except OptionError as error:
+            faults.append(one_line(str(error)))
     if faults or isinstance(settings, list):
         return faults
     return PictureRequest(row.place, out, banner, settings, *times)

@@ -19,7 +19,7 @@ OutOption = Annotated[
 ]
 
 
-@o.pictured()
+@o.pictured("loop")
 def run(
     out: OutOption,
     seconds: o.SecondsOption = 4.0,

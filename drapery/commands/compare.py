@@ -22,7 +22,7 @@ _READING = {"form": "from", "number": "number"}
 """How a design is read: the names of parameters and options."""
 
 
-@o.pictured(subject=Subject("banner"), without=("design",), more=LIMIT_OPTIONS)
+@o.pictured("still", Subject("banner"), without=("design",), more=LIMIT_OPTIONS)
 def run(
     subjects: Annotated[
         list[str],

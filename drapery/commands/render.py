@@ -13,7 +13,7 @@ OutOption = Annotated[
 ]
 
 
-@o.pictured()
+@o.pictured("still")
 def run(
     out: OutOption,
     **words: Any,

@@ -56,7 +56,7 @@ def write_patterns(
 
 
 @app.command("rotations")
-@o.pictured(without=("placement", "rotation", "facing"))
+@o.pictured("still", without=("placement", "rotation", "facing"))
 def write_rotations(
     out: SheetOption,
     view: o.ViewOption = "hero",
@@ -118,7 +118,7 @@ def write_packs(
 
 
 @app.command("styles")
-@o.pictured()
+@o.pictured("still")
 def write_styles(
     out: SheetOption,
     moments: Annotated[

@@ -10,11 +10,11 @@ from urllib.parse import parse_qsl
 from drapery.batch.manifest import PictureRequest
 from drapery.errors import DraperyError, OptionError
 from drapery.file_formats import FileFormat, format_of
-from drapery.option import Option, shown, within
+from drapery.option import Option, Output, shown, within
 from drapery.option import Subject as Drawn
 from drapery.options import check_options, one_line, unknown
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
-from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings, settled
+from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings, settled, settled_for
 from drapery.styles import combined_style
 
 if TYPE_CHECKING:
@@ -93,9 +93,9 @@ def pictures_in(folder: Path) -> dict[str, Path]:
     return found
 
 
-def options_of(subject: Subject) -> tuple[str, ...]:
+def options_of(subject: Subject, output: Output | None = None) -> tuple[str, ...]:
     """The options that the address of a subject takes."""
-    return tuple(name for name in PUBLIC_OPTIONS if OPTIONS[name].applies(Drawn(subject)))
+    return tuple(name for name in PUBLIC_OPTIONS if OPTIONS[name].applies(Drawn(subject), output))
 
 
 def _player_options(subject: Subject) -> tuple[str, ...]:
@@ -110,6 +110,7 @@ def parameters(
     """The query's parameters in OpenAPI form."""
     from drapery.garments import garment_names
 
+    output: Output = "loop" if animated else "still"
     length = {"minLength": 1, "maxLength": limits.max_length}
     texts: dict[str, dict[str, Any]] = {
         "design": {"type": "string", **length},
@@ -117,7 +118,7 @@ def parameters(
     }
     schemas: dict[str, dict[str, Any]] = {name: texts[name] for name in SUBJECTS[subject]}
     schemas |= {name: _schema(PLAYER_OPTIONS[name]) for name in _player_options(subject)}
-    schemas |= {name: _schema(OPTIONS[name]) for name in options_of(subject)}
+    schemas |= {name: _schema(OPTIONS[name]) for name in options_of(subject, output)}
     schemas["time"]["maximum"] = limits.time
     if animated:
         schemas |= {name: _schema(option) for name, option in LOOP_OPTIONS.items()}
@@ -176,6 +177,7 @@ def read_request(
     values = dict(query)
     if faults:
         return faults[:MAX_REASONS]
+    output: Output = "loop" if ending == ".gif" else "still"
     option = OPTIONS["style"]
     if any(option.is_path(each) for each in option.parse(values.get("style", ""))):
         return [f"style {shown(values['style'])} names a file, which an address cannot; use a name"]
@@ -191,10 +193,10 @@ def read_request(
                 _player(values, config, skin) if is_player else _garment(values, config.limits)
             )
             own = {**config.base.given_values, **garment.picture}
-            settings = settled(Settings(**chosen), Drawn(subject), own=own)
+            settings = settled(Settings(**chosen), Drawn(subject), output, own)
             return _request(values, garment, settings, ending, config.limits)
         settings, banner = config.base.changed(**chosen), _banner(values, config.limits)
-        settings = settled(settings, settings.subject(banner.kind))
+        settings = settled_for(banner, settings, output)
         _check_kind(banner, settings)
         return _request(values, banner, settings, ending, config.limits)
     except DraperyError as error:

@@ -21,7 +21,7 @@ from drapery.garments import (
 from drapery.option import Subject
 from drapery.packs import Packs, open_packs
 from drapery.render import make_folder, replacing, webp_bytes
-from drapery.settings import Placement, Settings, applicable
+from drapery.settings import Placement, Settings, applicable, settled_for
 from drapery.styles import combined_style
 from drapery.web.bundle import WEB, bundled_module
 from drapery.web.scene_file import garment_scene_bytes, scene_bytes
@@ -60,6 +60,7 @@ def page_text(design: Banner | Garment | None, settings: Settings) -> str:
     A text after `#` in the page's address is shown in place of a banner's design.
     Raises OptionError, PackError, or WasmBuildError where the kernels of the cloth are not built.
     """
+    settings = settled_for(design, settings, "page")
     if isinstance(design, Garment):
         shown = _garment_shown(design, settings)
     else:
