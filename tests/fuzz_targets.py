@@ -120,11 +120,12 @@ def undrawn_service() -> Iterator[Any]:
     async def drawn(*_: object) -> bytes:
         return b"drawn"
 
-    with (
-        mock.patch.object(service, "JobQueue"),
-        mock.patch.object(service.PictureService, "_draw", drawn),
-        TestClient(service.make_app(rate=0)) as client,
-    ):
+    app = service.make_app(rate=0)
+    with contextlib.ExitStack() as running:
+        with mock.patch.object(service, "JobQueue"):
+            client = running.enter_context(TestClient(app))
+        # Of this service alone: other tests in this process draw with one of their own.
+        app.state.service._draw = drawn
         yield client
 
 
