@@ -211,11 +211,13 @@ def known_format(name: str, *kinds: Kind) -> FileFormat | None:
 def format_of(path: str | Path, *kinds: Kind) -> FileFormat:
     """The format of a file that is to hold one of some kinds, by its name; see `known_format`.
 
-    A folder that exists holds the frames of a loop, whatever its name. Raises OptionError for an
-    ending that no file of these kinds has.
+    A folder that exists holds the frames of a loop, whatever its name; where a picture may be
+    written too, only if its name is none of a file. Raises OptionError for an ending that no file
+    of these kinds has.
     """
-    is_folder = "/" in endings_of(*kinds) and Path(path).is_dir()
-    found = known_format(f"{path}/" if is_folder else str(path), *kinds)
+    found = known_format(str(path), *kinds)
+    if "/" in endings_of(*kinds) and Path(path).is_dir() and not (found and "still" in kinds):
+        found = known_format(f"{path}/", *kinds)
     if found is not None:
         return found
     wanted = " or ".join(KIND_NAMES[kind] for kind in kinds)

@@ -28,7 +28,8 @@ from drapery.render import Frame, save_animation
 from drapery.render.encode import writer_of
 
 SIDE, COUNT = 16, 2
-LOOK = ("--size", f"{SIDE}x{SIDE}", "--samples", 1)
+SIZE = ("--size", f"{SIDE}x{SIDE}")
+LOOK = (*SIZE, "--samples", 1)
 LOOP = ("--seconds", 0.2, "--fps", 10)
 
 OTHER_TABLES = {
@@ -108,6 +109,7 @@ def test_the_longest_ending_counts_and_a_name_without_one_is_a_folder(tmp_path: 
         assert found is not None and found.name == wanted
     (tmp_path / "a.gif").mkdir()
     assert format_of(tmp_path / "a.gif", "loop").name == "folder"
+    assert format_of(tmp_path / "a.gif", "still", "loop").name == "GIF"
     still = known_format("a.sheet.png", "still")
     assert still is not None and still.name == "PNG"
     assert known_format(".png", "still") is known_format(".geo.json", "model") is None
@@ -169,7 +171,7 @@ COMMANDS: dict[str, tuple[tuple[Any, ...], tuple[Kind, ...]]] = {
     "render": (("white", *LOOK), ("still",)),
     "animate": (("white", *LOOK, *LOOP), ("loop",)),
     "model": (("white", *LOOP), ("model",)),
-    "garment": (("pennon", *LOOK), ("still", "loop", "model")),
+    "garment": (("pennon", *SIZE), ("still", "loop", "model")),
     "player": ((*LOOK,), ("still", "loop")),
     "scene": (("flag", "--size", f"{SIDE}x{SIDE}", *LOOP), ("still", "loop")),
 }
