@@ -283,9 +283,7 @@ def test_a_trim_names_its_key_palette() -> None:
 
 def test_wrong_palettes_and_overrides_name_their_files() -> None:
     short = {"minecraft:palettes/trim/gold": palette(LIGHT)}
-    with pytest.raises(
-        PackError, match=r"trim/gold\.png: its palette has 1 colours, the key has 2"
-    ):
+    with pytest.raises(PackError, match=r"trim/gold\.png: its palette has 1 colour, the key has 2"):
         trimmed(short, {})
     for wrong in (3, {"when": 3}, {"when": {"pattern": 4}}, {"palette": "A b"}):
         with pytest.raises(PackError, match=r"equipment/iron\.json: trim_overrides 0"):

@@ -41,7 +41,7 @@ COMMANDS = {
     **dict.fromkeys(STILLS, ("render", TEXT, *WORDS)),
     "face": ("flat", TEXT, "--scale", "5"),
     **dict.fromkeys(LOOPS, ("animate", TEXT, *TIMES, *WORDS)),
-    **dict.fromkeys(MODELS, ("model", TEXT, *TIMES, "--wind", "5", "--view", "hero")),
+    **dict.fromkeys(MODELS, ("model", TEXT, *TIMES, *WORDS[:4], "--view", "hero")),
 }
 
 
