@@ -318,3 +318,17 @@ def test_too_many_requests_get_the_time_to_ask_again() -> None:
         late = client.get("/banner.png?design=red")
     assert codes == [422] * 20 + [429]
     assert 0 < int(late.headers["retry-after"]) <= 60
+
+
+@pytest.mark.parametrize("ending", [".gif", ".apng", ".webp"])
+def test_a_turntable_is_served_in_each_format_of_a_loop(ending: str) -> None:
+    query = [("design", "white"), ("turntable", "yes"), ("seconds", "1"), ("fps", "10")]
+    read = read_request(query, ending, ServiceConfig())
+    assert not isinstance(read, list), read
+    assert read.settings.turntable and read.seconds == 1
+
+
+@pytest.mark.parametrize("ending", [".png", ".webp"])
+def test_a_still_has_no_turntable(ending: str) -> None:
+    read = read_request([("design", "white"), ("turntable", "yes")], ending, ServiceConfig())
+    assert read == ["turntable does nothing for a still picture; leave it out"]

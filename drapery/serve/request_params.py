@@ -177,7 +177,7 @@ def read_request(
     values = dict(query)
     if faults:
         return faults[:MAX_REASONS]
-    output: Output = "loop" if ending == ".gif" else "still"
+    output = _output(values, ending)
     option = OPTIONS["style"]
     if any(option.is_path(each) for each in option.parse(values.get("style", ""))):
         return [f"style {shown(values['style'])} names a file, which an address cannot; use a name"]
@@ -207,6 +207,12 @@ def read_request(
 
 def _format(ending: str) -> FileFormat:
     return format_of("picture" + ending, "still", "loop")
+
+
+def _output(values: dict[str, str], ending: str) -> Output:
+    """What a query asks for: a format that holds both is a loop where a length is asked for."""
+    timed = any(name in values for name in LOOP_OPTIONS)
+    return "loop" if _format(ending).kind(timed=timed) == "loop" else "still"
 
 
 def _faults(query: Sequence[tuple[str, str]], ending: str, subject: Subject) -> list[str]:
@@ -300,8 +306,7 @@ def _request(
     ending: str,
     limits: PictureLimits,
 ) -> PictureRequest:
-    timed = any(name in values for name in LOOP_OPTIONS)
-    is_loop = _format(ending).kind(timed=timed) == "loop"
+    is_loop = _output(values, ending) == "loop"
     seconds, fps = _times(values, limits) if is_loop else (None, None)
     frames = 1 if seconds is None or fps is None else round(seconds * fps)
     _check_size(settings, frames, limits)
