@@ -33,8 +33,8 @@ from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import RateLimiter
 from drapery.serve.request_params import (
     SUBJECTS,
+    Resource,
     ServiceConfig,
-    Subject,
     parameters,
     parse_query,
     read_request,
@@ -116,7 +116,7 @@ class PictureService:
         code_version()  # cache the result before the first request
         self.queue: JobQueue[bytes | JobResult] = JobQueue(pool, self._finish, waiting)
 
-    async def answer(self, request: Request, subject: Subject, format: FileFormat) -> Response:
+    async def answer(self, request: Request, subject: Resource, format: FileFormat) -> Response:
         """The response to a request: a picture, or an error that states the reason."""
         end = time.monotonic() + self.deadline
         pause = self.rates.wait(request.client.host if request.client else "")
@@ -162,7 +162,7 @@ class PictureService:
         return body or _refusal(422, ["the body is empty; send the PNG file of a skin"])
 
     def _job(
-        self, query: list[tuple[str, str]], subject: Subject, ending: str, sent: bytes
+        self, query: list[tuple[str, str]], subject: Resource, ending: str, sent: bytes
     ) -> Job | list[str]:
         """The job of a query, whose key is its file name, or the errors of the query.
 
@@ -305,7 +305,9 @@ def _copied(pictures: Mapping[str, Path], folder: Path) -> dict[str, Path]:
     }
 
 
-def _add_picture(app: FastAPI, subject: Subject, format: FileFormat, config: ServiceConfig) -> None:
+def _add_picture(
+    app: FastAPI, subject: Resource, format: FileFormat, config: ServiceConfig
+) -> None:
     async def handler(request: Request) -> Response:
         service: PictureService = request.app.state.service
         return await service.answer(request, subject, format)

@@ -10,8 +10,7 @@ from urllib.parse import parse_qsl
 from drapery.batch.manifest import PictureRequest
 from drapery.errors import DraperyError, OptionError
 from drapery.file_formats import FileFormat, format_of
-from drapery.option import Option, Output, shown, within
-from drapery.option import Subject as Drawn
+from drapery.option import Option, Output, Subject, shown, within
 from drapery.options import check_options, one_line, unknown
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings, settled, settled_for
@@ -21,9 +20,9 @@ if TYPE_CHECKING:
     from drapery import Banner
     from drapery.garments import Garment
 
-Subject: TypeAlias = Literal["banner", "garment", "player"]
+Resource: TypeAlias = Literal["banner", "garment", "player"]
 """What an address shows."""
-SUBJECTS: dict[Subject, dict[str, bool]] = {
+SUBJECTS: dict[Resource, dict[str, bool]] = {
     "banner": {"design": True},
     "garment": {"name": True, "design": False},
     "player": {},
@@ -93,19 +92,19 @@ def pictures_in(folder: Path) -> dict[str, Path]:
     return found
 
 
-def options_of(subject: Subject, output: Output | None = None) -> tuple[str, ...]:
+def options_of(subject: Resource, output: Output | None = None) -> tuple[str, ...]:
     """The options that the address of a subject takes."""
-    return tuple(name for name in PUBLIC_OPTIONS if OPTIONS[name].applies(Drawn(subject), output))
+    return tuple(name for name in PUBLIC_OPTIONS if OPTIONS[name].applies(Subject(subject), output))
 
 
-def _player_options(subject: Subject) -> tuple[str, ...]:
+def _player_options(subject: Resource) -> tuple[str, ...]:
     """The options of a player that the address of a subject takes."""
     public = (name for name, option in PLAYER_OPTIONS.items() if option.public)
     return tuple(public) if subject == "player" else ()
 
 
 def parameters(
-    animated: bool, limits: PictureLimits, subject: Subject = "banner"
+    animated: bool, limits: PictureLimits, subject: Resource = "banner"
 ) -> list[dict[str, Any]]:
     """The query's parameters in OpenAPI form."""
     from drapery.garments import garment_names
@@ -165,7 +164,7 @@ def read_request(
     query: Sequence[tuple[str, str]],
     ending: str,
     config: ServiceConfig,
-    subject: Subject = "banner",
+    subject: Resource = "banner",
     skin: Path | None = None,
 ) -> PictureRequest | list[str]:
     """The request of a query, or the errors in the query, one line each.
@@ -193,7 +192,7 @@ def read_request(
                 _player(values, config, skin) if is_player else _garment(values, config.limits)
             )
             own = {**config.base.given_values, **garment.picture}
-            settings = settled(Settings(**chosen), Drawn(subject), output, own)
+            settings = settled(Settings(**chosen), Subject(subject), output, own)
             return _request(values, garment, settings, ending, config.limits)
         settings, banner = config.base.changed(**chosen), _banner(values, config.limits)
         settings = settled_for(banner, settings, output)
@@ -215,7 +214,7 @@ def _output(values: dict[str, str], ending: str) -> Output:
     return "loop" if _format(ending).kind(timed=timed) == "loop" else "still"
 
 
-def _faults(query: Sequence[tuple[str, str]], ending: str, subject: Subject) -> list[str]:
+def _faults(query: Sequence[tuple[str, str]], ending: str, subject: Resource) -> list[str]:
     """The errors in the names of a query."""
     loop = tuple(LOOP_OPTIONS) if _format(ending).kind() == "loop" else ()
     known = frozenset({*SUBJECTS[subject], *_player_options(subject), *options_of(subject), *loop})
