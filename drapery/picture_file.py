@@ -32,6 +32,7 @@ _MARKER = re.compile(rb"\xff+([^\x00\xff])")
 _ALONE = {0x01, *range(0xD0, 0xD9)}
 """JPEG markers without a length: TEM, RST0 to RST7 and SOI."""
 _END, _SCAN = 0xD9, 0xDA
+_GIF_EXTENSION, _GIF_FRAME, _GIF_END = b"!,;"
 
 
 @contextmanager
@@ -46,8 +47,8 @@ def opened_picture(
     """A picture of which only the header is read; faults while it is decoded are refusals too.
 
     data: the bytes of a file. name: its name in errors. formats: those tried, by Pillow's names.
-    Raises OptionError for what is no such picture, is broken, or exceeds max_pixels, max_side or
-    MAX_SCANS.
+    Raises OptionError for what is no such picture, is broken, exceeds max_pixels, max_side or
+    MAX_SCANS, or is a GIF with a frame outside of its picture.
     """
     from PIL import Image, UnidentifiedImageError
 
@@ -59,6 +60,8 @@ def opened_picture(
                 _check_size(image.size, name, max_pixels, max_side)
                 if image.format in ("JPEG", "MPO"):
                     _check_scans(data, image.width * image.height, name)
+                if image.format == "GIF":
+                    _check_frames(data, image.size, name)
                 yield image
     except DraperyError:
         raise
@@ -115,6 +118,38 @@ def _check_scans(data: bytes, pixels: int, name: str) -> None:
             raise OptionError(
                 f"{name} is a JPEG of over {most:.0f} scans; save it again, not progressive"
             )
+
+
+def _check_frames(data: bytes, size: tuple[int, int], name: str) -> None:
+    """Refuse a GIF with a frame outside of its picture, for which Pillow makes a larger one.
+
+    size: of the picture and its first frame. A frame has to lie within the picture (GIF89a, 20).
+    """
+    at = 13 + _table_size(data[10:11])
+    while at < len(data) and data[at] != _GIF_END:
+        kind, at = data[at], at + 1
+        if kind == _GIF_FRAME:
+            left, top, width, height = struct.unpack_from("<4H", data, at)
+            if left + width > size[0] or top + height > size[1]:
+                raise OptionError(
+                    f"{name} is a GIF with a frame outside of its {size[0]} x {size[1]} px;"
+                    " save it again"
+                )
+            at = _after_blocks(data, at + 10 + _table_size(data[at + 8 : at + 9]))
+        elif kind == _GIF_EXTENSION:
+            at = _after_blocks(data, at + 1)
+
+
+def _table_size(flags: bytes) -> int:
+    """The bytes of the table of colours that a byte of flags announces in a GIF."""
+    return 6 << (flags[0] & 7) if flags and flags[0] & 0x80 else 0
+
+
+def _after_blocks(data: bytes, at: int) -> int:
+    """The place after a chain of blocks, each of which begins with its length."""
+    while at < len(data) and data[at]:
+        at += 1 + data[at]
+    return at + 1
 
 
 def _webp_size(data: bytes) -> tuple[int, int]:

@@ -10,6 +10,7 @@ import pytest
 from cost import limited_cost
 from PIL import Image
 
+from drapery.comparison.picture import decode_picture as compared_picture
 from drapery.errors import OptionError
 from drapery.match import decode_picture
 from drapery.picture_file import MAX_SCANS, opened_picture
@@ -61,6 +62,21 @@ def test_the_scans_of_a_larger_picture_cost_more(monkeypatch: pytest.MonkeyPatch
         opened_picture(of_scans(30), "x", max_pixels=1 << 20),
     ):
         pass
+
+
+def test_a_gif_with_a_frame_outside_of_its_picture_is_refused_before_it_is_decoded() -> None:
+    """Pillow enlarges the picture for such a frame: 60 bytes took a gigabyte."""
+    buffer = io.BytesIO()
+    frames = [Image.new("RGB", (8, 8), colour) for colour in ("red", "blue")]
+    frames[0].save(buffer, "GIF", save_all=True, append_images=frames[1:], disposal=2)
+    data = buffer.getvalue()
+    with opened_picture(data, "small.gif", ("GIF",)) as image:
+        assert getattr(image, "n_frames", 0) == 2
+    frame = data.rindex(b"," + struct.pack("<4H", 0, 0, 8, 8))
+    for sides in ((13_000, 13_000, 8, 8), (0, 0, 9, 8), (0, 1, 8, 8)):
+        changed = data[: frame + 1] + struct.pack("<4H", *sides) + data[frame + 9 :]
+        with pytest.raises(OptionError, match="a frame outside of its 8 x 8 px; save it again"):
+            compared_picture(changed, "large.gif")
 
 
 def test_bytes_that_look_like_scans_are_none() -> None:
