@@ -204,7 +204,7 @@ def _has_layer_keys(node: Mapping[Any, Any]) -> bool:
 
 def _is_design(key: str, value: object) -> bool:
     name = key.rpartition(":")[2]
-    if isinstance(value, Expression) and key[0] in ".[":
+    if isinstance(value, Expression) and key.startswith((".", "[")):
         return True  # what an object is spread from, or a computed key
     if not value or name == "provides_banner_patterns":
         return False
