@@ -32,8 +32,9 @@ def load_yaml(text: str, where: object) -> Any:
 
     text: one document of plain YAML: mappings, lists, texts, numbers, dates, true, false, null.
     where: the name of the file, for messages.
-    Lists are `LocatedList`. Raises OptionError, with line and column, for a text that is not such
-    a document, that repeats a key, or that exceeds MAX_DEPTH, MAX_REPEATED or MAX_NUMBER.
+    Lists are `LocatedList`. Keys are texts as they are written, also `3`, `yes` and `null`.
+    Raises OptionError, with line and column, for a text that is not such a document, that repeats
+    a key, or that exceeds MAX_DEPTH, MAX_REPEATED or MAX_NUMBER.
     """
     try:
         _check(text)
@@ -143,7 +144,7 @@ _BASE: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 class _Loader(_BASE):  # type: ignore[misc]
-    """The safe loader with located lists, short numbers and no key twice in a mapping."""
+    """The safe loader with located lists, short numbers, and texts as keys, none of them twice."""
 
 
 def _sequence(loader: Any, node: yaml.SequenceNode) -> Iterator[LocatedList]:
@@ -153,17 +154,25 @@ def _sequence(loader: Any, node: yaml.SequenceNode) -> Iterator[LocatedList]:
     items.extend(loader.construct_sequence(node))
 
 
-def _mapping(loader: Any, node: yaml.MappingNode) -> Iterator[dict[Any, Any]]:
-    seen: set[tuple[str, str]] = set()
+def _mapping(loader: Any, node: yaml.MappingNode) -> Iterator[dict[str, Any]]:
+    _check_keys([key for key, _ in node.value])
+    seen: set[str] = set()
     for key, _ in node.value:
+        if key.value in seen:
+            _refuse(f"the key {key.value!r} is given twice", key)
+        seen.add(key.value)
+    values: dict[str, Any] = {}
+    yield values
+    loader.flatten_mapping(node)  # a merge key brings in the keys of other mappings
+    _check_keys([key for key, _ in node.value])
+    for key, value in node.value:
+        values[key.value] = loader.construct_object(value)
+
+
+def _check_keys(keys: list[yaml.Node]) -> None:
+    for key in keys:
         if not isinstance(key, yaml.ScalarNode):
             _refuse("a list or a mapping is no key", key)
-        if (key.tag, key.value) in seen:
-            _refuse(f"the key {key.value!r} is given twice", key)
-        seen.add((key.tag, key.value))
-    values: dict[Any, Any] = {}
-    yield values
-    values.update(loader.construct_mapping(node))
 
 
 def _scalar(tag: str) -> Callable[[Any, Any], Any]:

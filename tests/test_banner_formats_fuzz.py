@@ -1,10 +1,14 @@
 """A slice of the fuzzing: a changed text gives banners or one line, soon."""
 
+import re
+
 import fuzzing
 import pytest
 
 SAMPLES = fuzzing.text_samples()
 READERS = fuzzing.text_readers()
+KEY = re.compile(r"""(?<![\w"'.:/])("[\w.:]+"|'[\w.:]+'|[\w.]+)(?=\s*[:=])""")
+STRANGE_KEYS = ('""', "''", "null", "~", "true", "3", "-0.5", "2026-01-01", "?", "[]", "<<", "[a]")
 
 
 @pytest.mark.parametrize("name", SAMPLES)
@@ -18,3 +22,15 @@ def test_changed_texts_are_read_or_refused(name: str):
     report = fuzzing.fuzz(READERS[name], SAMPLES[name], fuzzing.mutate_text, 300, seed=2)
     assert not report.failures, report.failures[0]
     assert report.count == 300 and len(report.outcomes) > 3
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_strange_keys_are_read_or_refused(name: str):
+    """Each key of a tree in turn gives way to an empty one, a null, a number, a date, a merge."""
+    report = fuzzing.FuzzReport()
+    for sample in SAMPLES[name]:
+        for found in KEY.finditer(sample):
+            for key in STRANGE_KEYS:
+                changed = sample[: found.start()] + key + sample[found.end() :]
+                fuzzing.judge(READERS[name], changed, report)
+    assert not report.failures, report.failures[0]

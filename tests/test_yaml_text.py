@@ -43,6 +43,12 @@ def test_lists_know_the_lines_of_their_items() -> None:
     assert jobs[2].lines == [5, 6]
 
 
+def test_keys_are_texts_as_they_are_written() -> None:
+    text = "3: a\nyes: b\n~: c\n010: d\n2026-01-01: e\n'': f\n<<: {1.0: g, 3: h}\n"
+    keys = ["1.0", "3", "yes", "~", "010", "2026-01-01", ""]
+    assert load_yaml(text, "x.yaml") == dict(zip(keys, "gabcdef", strict=True))
+
+
 def test_anchors_and_merges_are_read() -> None:
     text = "base: &base {size: 64x64, view: iso}\ncase:\n- {<<: *base, view: hero}\n- *base\n"
     read = load_yaml(text, "x.yaml")
@@ -68,6 +74,8 @@ def test_anchors_and_merges_are_read() -> None:
         ("? [a, b]\n: 1\n", "x.yaml, line 1, column 3: a list or a mapping is no key"),
         ("- {x: 1, {}: 2}", "x.yaml, line 1, column 10: a list or a mapping is no key"),
         ("- a: 1\n  a: 2\n", "x.yaml, line 2, column 3: the key 'a' is given twice"),
+        ("1: a\n'1': b\n", "x.yaml, line 2, column 1: the key '1' is given twice"),
+        ("- <<: {[a]: 1}\n", "a list or a mapping is no key"),
         (f"a: {'9' * 5000}", "x.yaml, line 1, column 4: a number has more than 100 characters"),
         (f"a: 1{':59' * 5000}", "a number has more than 100 characters"),
         ("a: 2020-13-45", "x.yaml, line 1, column 4: '2020-13-45' is not of the type timestamp"),

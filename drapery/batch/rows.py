@@ -145,19 +145,15 @@ def _yaml(path: Path) -> Rows:
     defaults = {} if defaults is None else defaults
     if not isinstance(jobs, LocatedList) or not set(parts) <= {"jobs", "defaults"}:
         raise OptionError(f"{path}: write a list of jobs, or `jobs` and `defaults`")
-    if not _has_names(defaults):
+    if not isinstance(defaults, dict):
         raise OptionError(f"{path}: write defaults as names of options, each with a value")
     for job, line in zip(jobs, jobs.lines, strict=True):
         place = f"line {line}"
-        if _has_names(job):
+        if isinstance(job, dict):
             yield ManifestRow(place, {**defaults, **job})
         else:
             message = "not a job; write names of options, each with a value"
             yield ManifestFault(place, message)
-
-
-def _has_names(value: object) -> bool:
-    return isinstance(value, dict) and all(isinstance(key, str) for key in value)
 
 
 def _banners(path: Path) -> Rows:

@@ -97,7 +97,7 @@ class _Loose(NamedTuple):
     layers: list[str]
 
     def add(self, tree: dict[str, DataTree], at: str) -> None:
-        for key, value in _keyed(tree):
+        for key, value in tree.items():
             if _is_base(key, value) or key == "damage":
                 self.bases.append(under(at, key))
             elif names_layers(key) and (looks_like_layers(value, True) or _is_text(key, value)):
@@ -119,15 +119,11 @@ def _walk(
             inside = True
         elif not inside:
             loose.add(tree, at)
-        for key, child in _keyed(tree):
+        for key, child in tree.items():
             yield from _walk(child, under(at, key), read, loose, inside)
     elif isinstance(tree, list):
         for number, child in enumerate(tree):
             yield from _walk(child, under(at, number), read, loose, inside)
-
-
-def _keyed(tree: dict[DataTree, DataTree]) -> Iterator[tuple[str, DataTree]]:
-    return ((str(key), value) for key, value in tree.items())
 
 
 def _is_base(key: str, value: DataTree) -> bool:
@@ -193,7 +189,7 @@ def item_key(node: dict[str, DataTree]) -> str | None:
         if key == "meta-type" or holds_words(key):
             continue
         if isinstance(value, str) and len(value) < 60 and kind_and_base(value):
-            return str(key)
+            return key
     return None
 
 
@@ -252,7 +248,6 @@ def _below(node: DataTree, at: str) -> Iterator[tuple[str, str | int, DataTree, 
         keyed = tree.items() if isinstance(tree, dict) else enumerate(tree)
         inner = []
         for key, value in keyed:
-            key = key if isinstance(key, int) and isinstance(tree, list) else str(key)
             if holds_words(key):
                 continue
             path, known = under(place, key), named or names_layers(key)
@@ -282,7 +277,7 @@ def _get(node: dict[str, DataTree], keys: tuple[str, ...]) -> tuple[str, DataTre
     """The first of the keys that the mapping has, in any case, and its value."""
     for key in keys:
         outer, _, inner = key.partition(".")
-        names = {str(name).lower(): name for name in node}
+        names = {name.lower(): name for name in node}
         if outer.lower() not in names:
             continue
         name = names[outer.lower()]

@@ -42,7 +42,7 @@ def looks_like_layers(value: DataTree, named: bool) -> bool:
         return any(_is_layer(entry, named) for entry in value)
     if isinstance(value, dict) and value:
         mappings = all(isinstance(entry, dict) for entry in value.values())
-        if mappings or all(str(key).isdecimal() for key in value):
+        if mappings or all(key.isdecimal() for key in value):
             return all(_is_layer(entry, named) for entry in value.values())
         return named and (_is_layer(value, named) or _is_pairs(value))
     if isinstance(value, str):
@@ -66,11 +66,11 @@ def _entries(value: DataTree, at: str) -> Iterator[tuple[str, DataTree]]:
     if value is None:
         return
     if isinstance(value, dict) and not _has_keys(value):
-        numbered = all(str(key).isdecimal() for key in value)
+        numbered = all(key.isdecimal() for key in value)
         items = sorted(value.items(), key=lambda item: int(item[0])) if numbered else value.items()
         for key, entry in items:
             pair = f"{key}:{entry}" if isinstance(entry, str) and not numbered else entry
-            yield under(at, str(key)), pair
+            yield under(at, key), pair
     elif isinstance(value, list):
         yield from ((under(at, number), entry) for number, entry in enumerate(value))
     elif isinstance(value, dict):
@@ -87,10 +87,7 @@ def _parts(text: str) -> list[str]:
 
 def _is_pairs(value: dict[DataTree, DataTree]) -> bool:
     """Whether a mapping is one of patterns to dyes, or of dyes to patterns."""
-    return all(
-        isinstance(key, str) and isinstance(entry, str) and _known(key, entry) == 2
-        for key, entry in value.items()
-    )
+    return all(isinstance(entry, str) and _known(key, entry) == 2 for key, entry in value.items())
 
 
 def _is_layer(entry: DataTree, named: bool) -> bool:
@@ -131,7 +128,7 @@ def _splits(text: str) -> list[tuple[str, str]]:
 
 def _keys(entry: dict[DataTree, DataTree]) -> tuple[DataTree, DataTree] | None:
     """The keys of a layer's pattern and of its colour, or None."""
-    plain = {re.sub("[-_ ]", "", str(key).lower()): key for key in entry}
+    plain = {re.sub("[-_ ]", "", key.lower()): key for key in entry}
     pattern = next((plain[key] for key in _PATTERN_KEYS if key in plain), None)
     colour = next((plain[key] for key in _COLOUR_KEYS if key in plain), None)
     return None if pattern is None or colour is None else (pattern, colour)
