@@ -80,8 +80,10 @@ def pytest_report_header(config: pytest.Config) -> str | None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """Compile kernels once, before pytest-xdist starts workers that would each do it."""
-    if getattr(session.config.option, "tx", None) and not is_worker(session.config):
+    """Compile kernels once, before pytest-xdist starts workers that would each do it. A part of the
+    tests compiles what it needs."""
+    config = session.config
+    if getattr(config.option, "tx", None) and is_whole(config) and not is_worker(config):
         compile_all()
 
 
