@@ -38,6 +38,8 @@ class Kernel(Compiled):
     """A function that numba compiles when it is first used; kernels call it as any other."""
 
     options: dict[str, Any] = INNER
+    is_inner = True
+    """Whether only kernels call it; see `drapery.jit_compiling`."""
 
     def __init__(self, function: Callable[..., object]) -> None:
         update_wrapper(cast(Any, self), function)
@@ -51,7 +53,9 @@ class Kernel(Compiled):
             with _lock:
                 if self._made is None:
                     _prepare_numba()
-                    self._made = self._make()
+                    made = self._make()
+                    made.is_inner = self.is_inner
+                    self._made = made
         return self._made
 
     @property
@@ -81,6 +85,7 @@ class EntryPoint(Kernel):
     """A kernel that Python calls."""
 
     options = OUTER
+    is_inner = False
 
     def __call__(self, *arguments: Any) -> Any:
         if self._ahead:
@@ -182,15 +187,18 @@ def numba_name(module: str, name: str, plain: str | None = None) -> Any:
 @cache
 def fits_numba(module: str) -> bool:
     """Whether numba has what a module is made with, and SIMD does not turn it off; else warns."""
-    if os.environ.get(SIMD) == "0":
-        return False
+    return os.environ.get(SIMD) != "0" and _is_imported(module, "kernels are slow")
+
+
+def _is_imported(module: str, effect: str) -> bool:
+    """Import a module that leans on parts of numba; warns of the effect if they are missing."""
     try:
         import_module(module)
     except (ImportError, AttributeError, TypeError) as fault:
         warnings.warn(
-            f"kernels are slow, because {module} does not fit this numba ({fault});"
+            f"{effect}, because {module} does not fit this numba ({fault});"
             " install the versions of numba and llvmlite that drapery declares",
-            stacklevel=2,
+            stacklevel=3,
         )
         return False
     return True
@@ -253,5 +261,7 @@ def _prepare_numba() -> None:
     """
     if fault := compiler_fault():
         raise BackendError(fault)
+    if "drapery.jit_compiling" not in sys.modules:
+        _is_imported("drapery.jit_compiling", "kernels take twice as long to compile")
     while _declarations:
         _declarations.pop(0)()

@@ -1,0 +1,177 @@
+"""Functions that only kernels call are linked as text: no machine code of their own, the same
+results."""
+
+import gc
+import importlib
+import sys
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+from numba import njit
+from numba.core import codegen
+from numba.core.errors import TypingError
+
+from drapery import jit
+from drapery.jit import address_of, call_by_address, entry_point, kernel
+
+ROW = np.arange(5.0)
+
+
+@kernel
+def last_times_five(row: Any) -> Any:
+    return row[-1] * 5
+
+
+@entry_point
+def with_sum(row: Any) -> Any:
+    return last_times_five(row) + np.sum(row)
+
+
+@kernel
+def one_more(row: Any) -> Any:
+    return with_sum(row) + 1
+
+
+@entry_point
+def outermost(row: Any) -> Any:
+    return one_more(row) + last_times_five(row)
+
+
+@kernel
+def checked(number: int) -> int:
+    if number < 0:
+        raise ValueError("the number is negative")
+    return number
+
+
+@entry_point
+def checks(number: int) -> int:
+    return checked(number)
+
+
+@pytest.fixture(autouse=True)
+def compiled_here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is read from the cache of kernels, so that each test compiles."""
+    monkeypatch.setattr("drapery.jit_cache.cache_on_disk", lambda dispatcher, _: dispatcher)
+    for function in (last_times_five, with_sum, one_more, outermost, checked, checks):
+        monkeypatch.setattr(function, "_made", None)
+
+
+def libraries(function: Any) -> list[Any]:
+    return [made.library for made in function.dispatcher.overloads.values()]
+
+
+def test_numba_has_what_is_changed() -> None:
+    """It fails when numba's insides change: then kernels take twice as long to compile."""
+    assert outermost(ROW) == 51
+    assert "drapery.jit_compiling" in sys.modules
+    assert [each.is_text for each in libraries(last_times_five)] == [True]
+    assert [each.is_text for each in libraries(outermost)] == [False]
+
+
+def test_an_entry_point_that_a_kernel_calls_first_has_code_of_its_own() -> None:
+    assert outermost(ROW) == 51
+    assert [each.is_text for each in libraries(with_sum)] == [False]
+    assert with_sum(ROW) == 30
+
+
+def test_an_entry_point_that_python_calls_first_is_called_by_others() -> None:
+    assert with_sum(ROW) == 30
+    assert outermost(ROW) == 51
+
+
+def test_an_error_of_an_inner_function_comes_out() -> None:
+    assert checks(3) == 3
+    with pytest.raises(ValueError, match="the number is negative"):
+        checks(-1)
+
+
+def test_a_function_of_others_that_a_kernel_calls_first_can_be_called() -> None:
+    """As that of a collider that a user writes."""
+
+    @njit
+    def theirs(number):
+        return np.sum(np.full(3, number))
+
+    @njit
+    def theirs_too(number):
+        return theirs(number) + 1
+
+    @kernel
+    def between(number):
+        return theirs(number) * 2
+
+    @entry_point
+    def ours(number):
+        return between(number)
+
+    assert ours(2.0) == 12
+    assert theirs(2.0) == 6
+    assert theirs_too(2.0) == 7
+
+
+def test_code_is_called_by_address() -> None:
+    example = (ROW,)
+    call = call_by_address(int, example)
+
+    @entry_point
+    def length(row):
+        return len(row)
+
+    @entry_point
+    def calls(address, row):
+        return call(address, (row,))
+
+    assert calls(address_of(length, example), np.arange(7.0)) == 7
+
+
+def test_garbage_is_collected_again_afterwards(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = []
+    module = importlib.import_module("drapery.jit_compiling")
+    finalize = module.KernelLibrary._finalize_final_module
+    monkeypatch.setattr(
+        module.KernelLibrary,
+        "_finalize_final_module",
+        lambda self: (seen.append(gc.isenabled()), finalize(self))[1],
+    )
+    assert gc.isenabled()
+    outermost(ROW)
+    assert seen and not any(seen)
+    assert gc.isenabled()
+    with pytest.raises(TypingError):
+        outermost("a text")
+    assert gc.isenabled()
+    gc.disable()
+    try:
+        outermost(ROW.astype(np.float32))
+        assert not gc.isenabled()
+    finally:
+        gc.enable()
+
+
+def test_threads_compile_at_the_same_time() -> None:
+    results: dict[int, Any] = {}
+    kinds = (np.float32, np.float64, np.int32, np.int64)
+
+    def run(number: int) -> None:
+        results[number] = outermost(ROW.astype(kinds[number])), checks(number)
+
+    threads = [threading.Thread(target=run, args=(number,)) for number in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert results == {number: (51, number) for number in range(4)}
+    assert gc.isenabled()
+
+
+def test_where_numba_differs_kernels_are_compiled_as_it_does(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    jit._prepare_numba()
+    monkeypatch.delitem(sys.modules, "drapery.jit_compiling")
+    monkeypatch.delattr(codegen.CPUCodeLibrary, "_optimize_functions")
+    with pytest.warns(UserWarning, match="take twice as long to compile, because drapery.jit_comp"):
+        jit._prepare_numba()
