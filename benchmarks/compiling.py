@@ -2,8 +2,8 @@
 
 Each run is a process of its own with an empty cache; `numba` stands for the compiler as numba has
 it, without `drapery.jit_compiling`. The ratio is that of the processor's times; the pictures must
-be the same. On two slow cores (x86-64, Python 3.13, numba 0.68.1): 140.7 s and 567 MB, and here
-87.6 s and 1045 MB; with garbage collected meanwhile 96 s and 897 MB.
+be the same. On a slow core (x86-64, Python 3.13, numba 0.68.1): 120.6 s and 568 MB, and here 83.9 s
+and 1045 MB, a ratio of 0.70.
 """
 
 import argparse
