@@ -19,6 +19,8 @@ MAX_REPEATED = 100_000
 """The most values that aliases may repeat in one document."""
 MAX_NUMBER = 100
 """The most characters of one number."""
+MAX_KEY = 1024
+"""The most characters of a key; YAML 1.2, 7.4.2, has this limit for a key without a `?`."""
 
 
 class LocatedList(list[Any]):
@@ -34,7 +36,7 @@ def load_yaml(text: str, where: object) -> Any:
     where: the name of the file, for messages.
     Lists are `LocatedList`. Keys are texts as they are written, also `3`, `yes` and `null`.
     Raises OptionError, with line and column, for a text that is not such a document, that repeats
-    a key, or that exceeds MAX_DEPTH, MAX_REPEATED or MAX_NUMBER.
+    a key, or that exceeds MAX_DEPTH, MAX_REPEATED, MAX_NUMBER or MAX_KEY.
     """
     try:
         _check(text)
@@ -155,24 +157,24 @@ def _sequence(loader: Any, node: yaml.SequenceNode) -> Iterator[LocatedList]:
 
 
 def _mapping(loader: Any, node: yaml.MappingNode) -> Iterator[dict[str, Any]]:
-    _check_keys([key for key, _ in node.value])
     seen: set[str] = set()
     for key, _ in node.value:
-        if key.value in seen:
+        if _key(key) in seen:
             _refuse(f"the key {key.value!r} is given twice", key)
         seen.add(key.value)
     values: dict[str, Any] = {}
     yield values
     loader.flatten_mapping(node)  # a merge key brings in the keys of other mappings
-    _check_keys([key for key, _ in node.value])
     for key, value in node.value:
-        values[key.value] = loader.construct_object(value)
+        values[_key(key)] = loader.construct_object(value)
 
 
-def _check_keys(keys: list[yaml.Node]) -> None:
-    for key in keys:
-        if not isinstance(key, yaml.ScalarNode):
-            _refuse("a list or a mapping is no key", key)
+def _key(node: yaml.Node) -> str:
+    if not isinstance(node, yaml.ScalarNode):
+        _refuse("a list or a mapping is no key", node)
+    if len(node.value) > MAX_KEY:
+        _refuse(f"a key has more than {MAX_KEY} characters", node)
+    return str(node.value)
 
 
 def _scalar(tag: str) -> Callable[[Any, Any], Any]:

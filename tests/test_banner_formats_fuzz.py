@@ -8,7 +8,10 @@ import pytest
 SAMPLES = fuzzing.text_samples()
 READERS = fuzzing.text_readers()
 KEY = re.compile(r"""(?<![\w"'.:/])("[\w.:]+"|'[\w.:]+'|[\w.]+)(?=\s*[:=])""")
-STRANGE_KEYS = ('""', "''", "null", "~", "true", "3", "-0.5", "2026-01-01", "?", "[]", "<<", "[a]")
+STRANGE_KEYS = (
+    *('""', "''", "null", "~", "true", "3", "-0.5", "2026-01-01", "?", "[]", "<<", "[a]"),
+    *("9" * 5000, f"'{'9' * 5000}'", f"? {'9' * 5000}\n"),
+)
 
 
 @pytest.mark.parametrize("name", SAMPLES)
@@ -34,3 +37,14 @@ def test_strange_keys_are_read_or_refused(name: str):
                 changed = sample[: found.start()] + key + sample[found.end() :]
                 fuzzing.judge(READERS[name], changed, report)
     assert not report.failures, report.failures[0]
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_long_numbers_are_read_or_refused(name: str):
+    """Python makes no number of over 4,300 digits."""
+    report = fuzzing.FuzzReport()
+    for sample in SAMPLES[name]:
+        for found in re.finditer(r"\w+", sample):
+            changed = sample[: found.start()] + "9" * 5000 + sample[found.end() :]
+            fuzzing.judge(READERS[name], changed, report)
+    assert not report.failures, report.failures[0][1]

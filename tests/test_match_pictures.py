@@ -227,6 +227,8 @@ def test_the_command_makes_a_mural(
     ("words", "message"),
     [
         (("--crop", "1,2"), "not four whole numbers"),
+        (("--crop", f"0,0,{'9' * 5000},9"), "not four whole numbers"),
+        (("--mural", f"{'9' * 5000}x3"), "not two whole numbers"),
         (("--mural", "4"), "not two whole numbers"),
         (("--mural", "0x3"), "1 to 1024 banners"),
         (("--mural", "1x1", "-o", "a.doc"), "ends in none of"),

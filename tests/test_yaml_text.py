@@ -75,6 +75,7 @@ def test_anchors_and_merges_are_read() -> None:
         ("- {x: 1, {}: 2}", "x.yaml, line 1, column 10: a list or a mapping is no key"),
         ("- a: 1\n  a: 2\n", "x.yaml, line 2, column 3: the key 'a' is given twice"),
         ("1: a\n'1': b\n", "x.yaml, line 2, column 1: the key '1' is given twice"),
+        (f"? {'9' * 1025}\n: a\n", "x.yaml, line 1, column 3: a key has more than 1024 characters"),
         ("- <<: {[a]: 1}\n", "a list or a mapping is no key"),
         (f"a: {'9' * 5000}", "x.yaml, line 1, column 4: a number has more than 100 characters"),
         (f"a: 1{':59' * 5000}", "a number has more than 100 characters"),

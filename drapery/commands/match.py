@@ -342,7 +342,7 @@ def _box(text: str | None) -> tuple[int, int, int, int] | None:
     if text is None:
         return None
     numbers = [part.strip() for part in text.split(",")]
-    if len(numbers) != 4 or not all(part.isdecimal() for part in numbers):
+    if len(numbers) != 4 or not all(part.isdecimal() and len(part) < 10 for part in numbers):
         raise OptionError(
             f"--crop {text[:40]!r} is not four whole numbers; use such as 0,0,100,200"
         )
@@ -356,7 +356,7 @@ def _checked_size(text: str) -> tuple[int, int]:
     from drapery.match import check_mural_size
 
     first, times, second = text.lower().partition("x")
-    if not (times and first.isdecimal() and second.isdecimal()):
+    if not (times and all(part.isdecimal() and len(part) < 10 for part in (first, second))):
         raise OptionError(f"--mural {text[:40]!r} is not two whole numbers; use such as 4x3")
     size = int(first), int(second)
     check_mural_size(*size)

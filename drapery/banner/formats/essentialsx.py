@@ -100,7 +100,7 @@ _OTHER = frozenset({"name", "lore", "itemflags", "unbreakable", "custommodeldata
 def _dye(word: str, at: str) -> str:
     if is_dye(word):
         return dye_name(word)
-    numbers = [int(part) for part in word.split(",") if part.isdecimal()]
+    numbers = [int(part) for part in word.split(",") if part.isdecimal() and len(part) < 10]
     colour = numbers[0] if len(numbers) == 1 else None
     if len(numbers) == 3:
         colour = min(numbers[0], 255) << 16 | min(numbers[1], 255) << 8 | min(numbers[2], 255)

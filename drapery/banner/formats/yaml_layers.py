@@ -85,7 +85,7 @@ def _parts(text: str) -> list[str]:
     return [part.strip() for part in _BETWEEN.split(text) if part.strip()]
 
 
-def _is_pairs(value: dict[DataTree, DataTree]) -> bool:
+def _is_pairs(value: dict[str, DataTree]) -> bool:
     """Whether a mapping is one of patterns to dyes, or of dyes to patterns."""
     return all(isinstance(entry, str) and _known(key, entry) == 2 for key, entry in value.items())
 
@@ -126,7 +126,7 @@ def _splits(text: str) -> list[tuple[str, str]]:
     ]
 
 
-def _keys(entry: dict[DataTree, DataTree]) -> tuple[DataTree, DataTree] | None:
+def _keys(entry: dict[str, DataTree]) -> tuple[str, str] | None:
     """The keys of a layer's pattern and of its colour, or None."""
     plain = {re.sub("[-_ ]", "", key.lower()): key for key in entry}
     pattern = next((plain[key] for key in _PATTERN_KEYS if key in plain), None)
