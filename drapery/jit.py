@@ -262,6 +262,6 @@ def _prepare_numba() -> None:
     if fault := compiler_fault():
         raise BackendError(fault)
     if "drapery.jit_compiling" not in sys.modules:
-        _is_imported("drapery.jit_compiling", "kernels take twice as long to compile")
+        _is_imported("drapery.jit_compiling", "kernels take longer to compile")
     while _declarations:
         _declarations.pop(0)()

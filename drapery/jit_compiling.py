@@ -1,4 +1,4 @@
-"""Kernels compile in half of the processor's time: what only they call gets no code of its own.
+"""Kernels compile in less of the processor's time: what only they call gets no code of its own.
 
 numba makes optimised machine code for each function that it compiles, also for those that are
 only called by other kernels. Such a function is linked as text into its caller, which LLVM

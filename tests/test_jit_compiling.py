@@ -64,7 +64,7 @@ def libraries(function: Any) -> list[Any]:
 
 
 def test_numba_has_what_is_changed() -> None:
-    """It fails when numba's insides change: then kernels take twice as long to compile."""
+    """It fails when numba's insides change: then kernels take longer to compile."""
     assert outermost(ROW) == 51
     assert "drapery.jit_compiling" in sys.modules
     assert [each.is_text for each in libraries(last_times_five)] == [True]
@@ -173,5 +173,7 @@ def test_where_numba_differs_kernels_are_compiled_as_it_does(
     jit._prepare_numba()
     monkeypatch.delitem(sys.modules, "drapery.jit_compiling")
     monkeypatch.delattr(codegen.CPUCodeLibrary, "_optimize_functions")
-    with pytest.warns(UserWarning, match="take twice as long to compile, because drapery.jit_comp"):
+    with pytest.warns(
+        UserWarning, match="kernels take longer to compile, because drapery.jit_comp"
+    ):
         jit._prepare_numba()

@@ -65,7 +65,7 @@ def test_the_scans_of_a_larger_picture_cost_more(monkeypatch: pytest.MonkeyPatch
 
 
 def test_a_gif_with_a_frame_outside_of_its_picture_is_refused_before_it_is_decoded() -> None:
-    """Pillow enlarges the picture for such a frame: 60 bytes took a gigabyte."""
+    """Pillow enlarges the picture for such a frame: a kilobyte took a gigabyte."""
     buffer = io.BytesIO()
     frames = [Image.new("RGB", (8, 8), colour) for colour in ("red", "blue")]
     frames[0].save(buffer, "GIF", save_all=True, append_images=frames[1:], disposal=2)
