@@ -603,6 +603,9 @@ NAMED_OPTIONS: Mapping[str, Option] = MappingProxyType(
 )
 """The options that a text can set, so those of commands, manifests and pages."""
 
+TEXTURED = tuple(kind for kind in get_args(Kind)[1:] if OPTIONS["texture"].applies(Subject(kind)))
+"""The kinds that show a texture of the user in place of a design."""
+
 LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
     {
         "seconds": Option(

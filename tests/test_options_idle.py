@@ -11,8 +11,10 @@ from drapery import Banner, Settings, animate, draw, iter_frames, save_model
 from drapery.errors import OptionError
 from drapery.option import Subject
 from drapery.options import check_options
+from drapery.serve.request_params import ServiceConfig, read_request
 from drapery.settings import NAMED_OPTIONS
 from drapery.studio.snippets import ExportRequest, as_command, as_python
+from drapery.style import check_kind
 
 CREEPER = Banner.parse("white creeper:lime")
 OTHERS: dict[str, Any] = {
@@ -95,6 +97,19 @@ def test_a_given_default_is_refused_too_and_none_is_not() -> None:
     assert check_options({"placement": "item", "view": "front"}, Path()) == said
     assert isinstance(check_options({"placement": "item", "direction": None}, Path()), Settings)
     assert isinstance(check_options({"placement": "wall", "view": "back"}, Path()), Settings)
+
+
+@pytest.mark.parametrize("kind", NAMED_OPTIONS["kind"].choices[1:])
+def test_a_kind_takes_a_texture_or_a_design(kind: Any) -> None:
+    textured = NAMED_OPTIONS["texture"].applies(Subject(kind))
+    read = read_request([("design", "red"), ("kind", kind)], ".png", ServiceConfig())
+    assert (read == [f"kind {kind} shows a file, which an address cannot name"]) == textured
+    if textured:
+        with pytest.raises(OptionError, match=f"kind {kind} takes no design"):
+            check_kind(CREEPER, Settings(kind=kind))
+    else:
+        with pytest.raises(OptionError, match="texture is for a cape or elytra"):
+            check_kind(CREEPER, Settings(kind=kind, texture="x.png"))
 
 
 def test_the_studio_writes_no_option_that_does_nothing() -> None:

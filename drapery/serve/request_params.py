@@ -13,7 +13,7 @@ from drapery.file_formats import FileFormat, format_of
 from drapery.option import Option, Output, Subject, shown, within
 from drapery.options import check_options, one_line, unknown
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
-from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings, settled, settled_for
+from drapery.settings import LOOP_OPTIONS, OPTIONS, TEXTURED, Settings, settled, settled_for
 from drapery.styles import combined_style
 
 if TYPE_CHECKING:
@@ -40,8 +40,6 @@ MAX_REASONS = 8
 
 _PAIR = {"type": "string", "pattern": "^[1-9][0-9]{0,3}x[1-9][0-9]{0,3}$"}
 _COLOUR = {"type": "string", "pattern": "^(transparent|#?[0-9a-fA-F]{6})$"}
-_NEEDS_FILE = ("cape", "elytra")
-"""Kinds that show a texture from the user."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +139,7 @@ def _schema(option: Option) -> dict[str, Any]:
     if option.name == "background":
         return dict(_COLOUR)
     if option.choices:
-        return {"enum": [choice for choice in option.choices if choice not in _NEEDS_FILE]}
+        return {"enum": [choice for choice in option.choices if choice not in TEXTURED]}
     names: dict[object, str] = {bool: "boolean", int: "integer", float: "number"}
     schema: dict[str, Any] = {"type": names.get(option.type, "string")}
     if option.bounds is not None:
@@ -241,7 +239,7 @@ def _banner(values: dict[str, str], limits: PictureLimits) -> "Banner":
 def _check_kind(banner: "Banner", settings: Settings) -> None:
     from drapery.style import check_kind
 
-    if settings.kind in _NEEDS_FILE:
+    if settings.kind in TEXTURED:
         raise OptionError(f"kind {settings.kind} shows a file, which an address cannot name")
     check_kind(banner, settings)
 

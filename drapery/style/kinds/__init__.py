@@ -2,12 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
 
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.errors import OptionError
-from drapery.settings import Placement, Settings
+from drapery.settings import TEXTURED, Placement, Settings
 from drapery.style.body import Body
 from drapery.style.ground import ground_of
 from drapery.style.kinds import banner, cape, elytra, shield
@@ -18,19 +17,18 @@ class Kind:
     """One kind of thing that is drawn.
 
     build: makes the body of a design (None for a texture) from packs and settings; raises
-        OptionError and PackError. takes: what it is drawn with. placements: where it can be.
+        OptionError and PackError. placements: where it can be.
     """
 
     build: Callable[[Banner | None, Packs, Settings], Body]
-    takes: Literal["design", "texture"]
     placements: tuple[Placement, ...]
 
 
 KINDS: dict[str, Kind] = {
-    "banner": Kind(banner.body, "design", ("standing", "wall", "item")),
-    "shield": Kind(shield.body, "design", ("standing", "item")),
-    "cape": Kind(cape.body, "texture", ("standing",)),
-    "elytra": Kind(elytra.body, "texture", ("standing",)),
+    "banner": Kind(banner.body, ("standing", "wall", "item")),
+    "shield": Kind(shield.body, ("standing", "item")),
+    "cape": Kind(cape.body, ("standing",)),
+    "elytra": Kind(elytra.body, ("standing",)),
 }
 """All kinds by name."""
 
@@ -62,8 +60,8 @@ def check_kind(design: Banner | None, settings: Settings) -> Kind:
     if settings.placement not in kind.placements:
         places = " or ".join(kind.placements)
         raise OptionError(f"placement {settings.placement} is not for a {name}; use {places}")
-    if kind.takes == "texture" and design is not None:
+    if name in TEXTURED and design is not None:
         raise OptionError(f"kind {name} takes no design; give only its texture, a PNG file")
-    if kind.takes == "design" and settings.texture is not None:
+    if name not in TEXTURED and settings.texture is not None:
         raise OptionError("texture is for a cape or elytra; use kind cape, or leave it out")
     return kind
