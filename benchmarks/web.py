@@ -26,7 +26,7 @@ from benchmarks.quick import add_quick, needs
 from drapery import Banner, Settings
 from drapery.garments import dressed_player, make_wearer
 from drapery.packs import open_packs
-from drapery.scenes import LivePanel, Stager, live_garment, live_panels, played_garment
+from drapery.scenes import LiveBody, LivePanel, live_garment, live_panels, played_garment
 from drapery.style import Body, body_of
 from drapery.web.wasm.build import METHODS, build_module
 from drapery.web.wasm.module import module_info, module_places
@@ -116,11 +116,11 @@ def played(folder: Path, plan: bytes, actions: list[Action], count: int, timed: 
 
 def native(settings: Settings, steps: int) -> tuple[str, float]:
     """The digest after so many steps of the solver in Python, and microseconds a step."""
-    stager = Stager(banner(settings), settings)
+    live = LiveBody(banner(settings), settings)
     start = time.process_time()
-    stager.advance(steps)
+    live.advance(steps)
     spent = time.process_time() - start
-    state = stager.cloths[0].state
+    state = live.cloths[0].state
     return digest(state.positions[0], state.velocities[0]), spent / steps * 1e6
 
 

@@ -23,7 +23,7 @@ from drapery.banner import DYES, PATTERN_NAMES
 from drapery.garments import Garment, PlayerSettings, find_garment, garment_names, player_of
 from drapery.packs import MemoryPack, open_packs
 from drapery.render import draw_scene
-from drapery.scenes import Stager, played_garment
+from drapery.scenes import LiveBody, played_garment
 from drapery.style import body_of
 from drapery.styles import style_names
 
@@ -249,11 +249,11 @@ def _garment_bytes(garment: Garment, request: Request) -> bytes:
 
 def _move_live(request: Request) -> bytes:
     settings = Settings(**request.options)
-    stager = Stager(
+    live = LiveBody(
         body_of(Banner.parse(request.what["design"]), open_packs(()), settings), settings
     )
-    stager.advance(TICKS)
-    return b"".join(mesh.positions.tobytes() for mesh in stager.meshes())
+    live.advance(TICKS)
+    return b"".join(mesh.positions.tobytes() for mesh in live.meshes())
 
 
 def _draw_played(request: Request) -> bytes:

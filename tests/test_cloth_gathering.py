@@ -7,7 +7,7 @@ from drapery import Banner
 from drapery.cloth import grid, max_stretch
 from drapery.cloth.gathering import fold_count, gathered_state
 from drapery.packs import open_packs
-from drapery.scenes.stager import ClothSpec, Stager, cloth_at_rest
+from drapery.scenes.stager import ClothSpec, LiveBody, cloth_at_rest
 from drapery.settings import Settings
 from drapery.style.kinds import body_of
 
@@ -52,15 +52,15 @@ def test_only_cloth_that_is_pinned_along_the_top_is_gathered(pins, wider):
 
 def test_the_flag_of_a_banner_keeps_its_bar_and_its_folds():
     settings = Settings(wind=0.0)
-    stager = Stager(body_of(Banner("white"), open_packs(), settings), settings)
-    top = [cloth.state.positions[0, :16].copy() for cloth in stager.cloths]
-    stager.advance(30)
-    now = stager.cloths[0].state.positions[0].reshape(31, 16, 3)
+    live = LiveBody(body_of(Banner("white"), open_packs(), settings), settings)
+    top = [cloth.state.positions[0, :16].copy() for cloth in live.cloths]
+    live.advance(30)
+    now = live.cloths[0].state.positions[0].reshape(31, 16, 3)
     assert (now[0] == top[0]).all()
     assert np.ptp(now[10, :, 2]) > 0.02
 
 
 def test_a_coarse_banner_is_not_gathered():
     settings = Settings(grid=(5, 9))
-    stager = Stager(body_of(Banner("white"), open_packs(), settings), settings)
-    assert (stager.cloths[0].state.positions[..., 2] == 0).all()
+    live = LiveBody(body_of(Banner("white"), open_packs(), settings), settings)
+    assert (live.cloths[0].state.positions[..., 2] == 0).all()

@@ -1,4 +1,4 @@
-"""The stager: names and objects give the same cloth; objects are never taken from a cache."""
+"""Cloth of bodies: names and objects give the same cloth; objects are never taken from a cache."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -11,7 +11,7 @@ from drapery import Banner
 from drapery.banner.packs import open_packs
 from drapery.cloth import FABRICS, Cloth, Fabric, SolverXPBD, State, Wind, grid
 from drapery.mesh import Array
-from drapery.scenes.stager import Stager, loop, still, wind_of
+from drapery.scenes.stager import LiveBody, loop, still, wind_of
 from drapery.settings import FabricName, Settings
 from drapery.style.kinds import body_of
 
@@ -29,12 +29,12 @@ def test_objects_equal_the_names_they_stand_for() -> None:
     assert np.array_equal(flag(fabric=FABRICS["wool"]), named)
 
 
-def test_a_stager_advances_to_the_still() -> None:
-    stager = Stager(body_of(Banner(), open_packs(()), NAMED), NAMED)
+def test_a_live_body_advances_to_the_still() -> None:
+    live = LiveBody(body_of(Banner(), open_packs(()), NAMED), NAMED)
     for _ in range(30):
-        stager.advance()
-    assert stager.time == pytest.approx(NAMED.time)
-    assert np.allclose(stager.meshes()[-1].positions, flag(), atol=1e-6)
+        live.advance()
+    assert live.time == pytest.approx(NAMED.time)
+    assert np.allclose(live.meshes()[-1].positions, flag(), atol=1e-6)
 
 
 @dataclass
@@ -60,14 +60,14 @@ def test_objects_are_not_taken_from_the_cache() -> None:
 def creases(fabric: FabricName) -> float:
     """The share of neighbouring cells that meet at over 60 degrees in 8 m/s."""
     settings = Settings(fabric=fabric, wind=8.0)
-    stager, (columns, rows) = (
-        Stager(body_of(Banner(), open_packs(()), settings), settings),
+    live, (columns, rows) = (
+        LiveBody(body_of(Banner(), open_packs(()), settings), settings),
         settings.grid,
     )
     found = []
     for _ in range(16):
-        stager.advance(24)
-        places = stager.cloths[0].state.positions[0].reshape(rows, columns, 3)
+        live.advance(24)
+        places = live.cloths[0].state.positions[0].reshape(rows, columns, 3)
         normals = np.cross(places[1:, :-1] - places[:-1, 1:], places[1:, 1:] - places[:-1, :-1])
         normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
         across = (normals[:, 1:] * normals[:, :-1]).sum(axis=-1)
@@ -86,8 +86,8 @@ def test_fabrics_of_stiff_folds_bend_as_they_are(
     fabric: FabricName, shape: tuple[int, int]
 ) -> None:
     settings = Settings(fabric=fabric, grid=shape, wind=8.0)
-    stager = Stager(body_of(Banner(), open_packs(()), settings), settings)
-    cloth = stager.cloths[0].cloth
+    live = LiveBody(body_of(Banner(), open_packs(()), settings), settings)
+    cloth = live.cloths[0].cloth
     size = np.ptp(cloth.rest_positions[:, :2], axis=0)
     expected = grid(*shape, *size, fabric=FABRICS[fabric]).bending
     assert np.allclose(cloth.bending.stiffness, expected.stiffness, rtol=1e-6)

@@ -643,7 +643,7 @@ def test_unstable_cloth_is_reported_and_reset(client: Any) -> None:
     def tear(live: Live) -> None:
         (cloth,) = live._cloths
         state = replace(cloth.state, velocities=cloth.state.velocities * np.nan)
-        live._stager.cloths[0] = replace(cloth, state=state)
+        live._live.cloths[0] = replace(cloth, state=state)
 
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)

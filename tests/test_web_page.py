@@ -14,7 +14,7 @@ from test_javascript import NODE, run_node
 
 from drapery import Banner, OptionError
 from drapery.packs import open_packs
-from drapery.scenes import Stager
+from drapery.scenes import LiveBody
 from drapery.settings import Settings
 from drapery.style import body_of
 from drapery.web import page
@@ -54,8 +54,8 @@ def test_the_bundle_has_every_module_that_the_element_imports() -> None:
 def test_a_scene_begins_as_the_cloth_hangs(playable: Playable) -> None:
     packs, settings = open_packs(()), playable(size=SIZE)
     header, arrays = unpack(gzip.decompress(scene_bytes(DESIGN, packs, settings)))
-    stager = Stager(body_of(DESIGN, packs, settings), settings)
-    meshes = np.concatenate([mesh.positions for mesh in stager.meshes()])
+    live = LiveBody(body_of(DESIGN, packs, settings), settings)
+    meshes = np.concatenate([mesh.positions for mesh in live.meshes()])
     np.testing.assert_array_equal(arrays["positions"], meshes.astype(np.float32).reshape(-1))
     ((first, count),) = header["grip"]
     assert first + count == header["vertices"] == len(meshes)

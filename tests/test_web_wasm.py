@@ -20,7 +20,7 @@ from drapery.cloth import SolverPBD
 from drapery.cloth.forces import lower_forces
 from drapery.packs import open_packs
 from drapery.render import draw_scene
-from drapery.scenes import Stager, live_panels, still
+from drapery.scenes import LiveBody, live_panels, still
 from drapery.scenes.stager import cloth_spec, forces_of, wind_of
 from drapery.style import body_of
 from drapery.web.wasm import build
@@ -46,18 +46,18 @@ def digest(*arrays: Any) -> str:
 @pytest.mark.parametrize("placement", ["standing", "wall"])
 def test_600_steps_have_the_bits_of_python(placement: Any) -> None:
     settings = quick_settings(placement=placement, rotation=3 if placement == "standing" else 0)
-    stager = Stager(white_banner(settings), settings)
-    stager.advance(600)
+    live = LiveBody(white_banner(settings), settings)
+    live.advance(600)
     player = WasmPlayer(built_module(), plan_of(settings))
     player.step(599)
     player.step(1)
-    state, mesh = stager.cloths[0].state, stager.meshes()[-1]
+    state, mesh = live.cloths[0].state, live.meshes()[-1]
     played = digest(player.read("positions"), player.read("velocities"))
     assert played == digest(state.positions[0], state.velocities[0])
     player.run("cover")
     assert digest(player.read("vertices")) == digest(mesh.positions)
     assert digest(player.read("normals")) == digest(mesh.normals)
-    light = stager.light.brightness(mesh.normals.astype(np.float32))
+    light = live.staging.light.brightness(mesh.normals.astype(np.float32))
     assert np.abs(player.read("light") - light).max() < 1e-6
 
 
@@ -65,14 +65,14 @@ def test_contact_of_the_cloth_with_itself_has_the_bits_of_python() -> None:
     moved, sizes = [], []
     for contact in ("world", "all"):
         settings = quick_settings(wind=20.0, direction=240.0, fabric="silk", contact=contact)
-        stager = Stager(white_banner(settings), settings)
-        (plan,) = plans_of(stager.body, settings, picture=True)
+        live = LiveBody(white_banner(settings), settings)
+        (plan,) = plans_of(live.body, settings, picture=True)
         player = WasmPlayer(built_module(), plan)
         player.step(300)
         sizes.append(player.memory.data_len(player.store))
-        stager.advance(300)
+        live.advance(300)
         moved.append(digest(player.read("positions"), player.read("velocities")))
-        state = stager.cloths[0].state
+        state = live.cloths[0].state
         assert moved[-1] == digest(state.positions[0], state.velocities[0])
     assert moved[0] != moved[1], "the cloth has met itself"
     assert sizes[1] < sizes[0] + (1 << 20), "what a step allocates is free after it"
@@ -247,11 +247,11 @@ def test_javascript_plays_many_cloths_in_one_memory(tmp_path: Path) -> None:
         timeout=60,
     )
     assert done.returncode == 0, done.stderr
-    stager = Stager(white_banner(settings), settings)
-    stager.advance(600)
-    state = stager.cloths[0].state
+    live = LiveBody(white_banner(settings), settings)
+    live.advance(600)
+    state = live.cloths[0].state
     expected = digest(state.positions[0], state.velocities[0])
-    vertices = 3 * len(stager.meshes()[-1].positions)
+    vertices = 3 * len(live.meshes()[-1].positions)
     refused = "the plan of the cloth is damaged"
     assert json.loads(done.stdout) == [
         *(expected, 10, True),

@@ -1,4 +1,4 @@
-"""Ready-made scenes, one file each, and the stager that hangs cloth and steps it in time.
+"""Ready-made scenes, one file each, and how a subject with its settings becomes a scene.
 
     from drapery import Banner, Settings
     from drapery.packs import open_packs
@@ -31,15 +31,16 @@ if TYPE_CHECKING:
         STEP,
         WIND_AXIS,
         ClothSpec,
-        Stager,
+        LiveBody,
+        StagedBody,
         cloth_at_rest,
         cloth_spec,
-        floor_under,
         flow,
         loop,
         still,
         wind_of,
     )
+    from drapery.scenes.staging import Staging, floor_under
 
 __all__ = [
     "STEP",
@@ -47,6 +48,7 @@ __all__ = [
     "Clip",
     "ClothSpec",
     "Dressed",
+    "LiveBody",
     "LiveKernel",
     "LivePanel",
     "Picture",
@@ -54,7 +56,8 @@ __all__ = [
     "PlayedGarment",
     "SceneEntry",
     "SceneParameters",
-    "Stager",
+    "StagedBody",
+    "Staging",
     "cloth_at_rest",
     "cloth_spec",
     "exploded_view",
@@ -89,14 +92,15 @@ __getattr__, __dir__ = lazy_names(
             "STEP",
             "WIND_AXIS",
             "ClothSpec",
-            "Stager",
+            "LiveBody",
+            "StagedBody",
             "cloth_at_rest",
             "cloth_spec",
-            "floor_under",
             "flow",
             "loop",
             "still",
             "wind_of",
         ),
+        "scenes.staging": ("Staging", "floor_under"),
     },
 )

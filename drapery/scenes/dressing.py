@@ -1,4 +1,4 @@
-"""Pictures of garments: the stager's camera and light, with cloth that a garment describes.
+"""Pictures of garments: the camera and light of a `Staging`, with cloth that a garment describes.
 
 A garment's origin is the middle of a block, as that of a banner. The air comes towards a wearer
 that walks at the speed of its walk, so its cloth moves as on one that walks through the wind.
@@ -41,18 +41,17 @@ from drapery.scenes.stager import (
     SETTLING,
     STEP,
     Moments,
-    Stager,
     close_loop,
-    floor_under,
     wind_of,
 )
+from drapery.scenes.staging import Staging
 from drapery.scenes.styling import moved_by_style, tailored
 from drapery.scenes.wearers import Wearer, wearer_of
 from drapery.settings import Settings
 from drapery.style.block import turn_matrix
 from drapery.style.block_world import Cell, blocks
 from drapery.style.board import moved
-from drapery.style.body import Body, Part
+from drapery.style.body import Part
 from drapery.style.ground import ground_of
 from drapery.style.rig import moved_rig
 from drapery.style.scenery import pole, pole_frame
@@ -315,25 +314,17 @@ class Dressed:
 
         One camera frames all of them; a turntable goes once around them.
         """
-        stager = Stager(Body(ground=self._ground()), self.settings, ())
+        staging = Staging(self.settings, self._ground())
         moments = [
-            [self._placed(stager, model) for model in models]
-            for models in self._moments(stager, sheets, times)
+            [self._placed(staging, model) for model in models]
+            for models in self._moments(staging, sheets, times)
         ]
-        meshes = [model.mesh for models in moments for model in models]
-        framed = [self._placed(stager, model) for time in times for model in self._framed(time)]
-        points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in meshes])
-        if framed:
-            points = np.concatenate([model.mesh.positions for model in framed])
-        aspect = self.settings.size[0] / self.settings.size[1]
-        cameras = stager.cameras([points], aspect, len(moments))
-        floor = floor_under(meshes)
-        for models, camera in zip(moments, cameras, strict=True):
-            shadow = stager.contact(models, floor) if self.settings.shadow else None
-            yield stager.scene(models, camera, shadow)
+        framed = [self._placed(staging, model) for time in times for model in self._framed(time)]
+        meshes = [[model.mesh for model in models] for models in moments]
+        return staging.scenes(meshes, moments, [model.mesh.positions for model in framed])
 
     def _moments(
-        self, stager: Stager, sheets: Sequence[Array], times: Sequence[float]
+        self, staging: Staging, sheets: Sequence[Array], times: Sequence[float]
     ) -> Iterator[list[Model]]:
         """All models of each moment in the garment's own frame, the cloth in the style."""
         cloth: list[list[Model]] = [
@@ -344,9 +335,9 @@ class Dressed:
             ]
             for frame in range(len(times))
         ]
-        for time, worn in zip(times, moved_by_style(cloth, stager.style), strict=True):
+        for time, worn in zip(times, moved_by_style(cloth, staging.style), strict=True):
             figure = self.wearer.models(time, self._bones) if self.wearer else ()
-            yield [*self.fixed, *figure, *(tailored(each, stager.style) for each in worn)]
+            yield [*self.fixed, *figure, *(tailored(each, staging.style) for each in worn)]
 
     @property
     def _bones(self) -> tuple[str, ...] | None:
@@ -361,8 +352,8 @@ class Dressed:
             return ()
         return self.wearer.models(time, BUST if who.shown == "bust" else self._bones)
 
-    def _placed(self, stager: Stager, model: Model) -> Model:
-        mesh = stager.turned(moved(model.mesh, MIDDLE))
+    def _placed(self, staging: Staging, model: Model) -> Model:
+        mesh = staging.turned(moved(model.mesh, MIDDLE))
         if isinstance(model, RiggedModel):
             # A picture is turned about MIDDLE.
             return moved_rig(model, mesh, turn_matrix(self.settings.turned), MIDDLE)

@@ -26,10 +26,10 @@ from drapery.scenes.dressing import MIDDLE, WORN_STEP, Dressed
 from drapery.scenes.layered import meet_each_other
 from drapery.scenes.player_motion import RAMP, STRIDE, Poses
 from drapery.scenes.playing import LiveKernel, LivePanel, make_live_panel, turning_of
-from drapery.scenes.stager import Stager, wind_of
+from drapery.scenes.stager import wind_of
+from drapery.scenes.staging import Staging
 from drapery.scenes.wearers import Wearer
 from drapery.settings import Settings
-from drapery.style.body import Body
 from drapery.style.live_figure import make_live_figure, pose_figure
 from drapery.style.live_shell import make_live_shell
 from drapery.style.skins import SIDE
@@ -130,14 +130,16 @@ def live_garment(played: PlayedGarment, lanes: int | None = None) -> list[LivePa
     The first one also has the wearer, if there is one: the call `pose` writes the arrays `figure`
     and `figureLight`. lanes: see `live_panels`. Raises OptionError.
     """
-    stager = Stager(Body(), played.settings, ())
-    panels = [_panel(played, stager, sewn, lanes) for sewn in played.cloths]
+    staging = Staging(played.settings)
+    panels = [_panel(played, staging, sewn, lanes) for sewn in played.cloths]
     return (
-        panels if played.wearer is None else [_with_figure(panels[0], played, stager), *panels[1:]]
+        panels if played.wearer is None else [_with_figure(panels[0], played, staging), *panels[1:]]
     )
 
 
-def _panel(played: PlayedGarment, stager: Stager, sewn: SewnCloth, lanes: int | None) -> LivePanel:
+def _panel(
+    played: PlayedGarment, staging: Staging, sewn: SewnCloth, lanes: int | None
+) -> LivePanel:
     moving = played.begun(sewn)
     settings, who = played.settings, played.garment.wearer
     speed = 0.0 if who is None or isinstance(settings.wind, Wind) else who.speed
@@ -147,13 +149,13 @@ def _panel(played: PlayedGarment, stager: Stager, sewn: SewnCloth, lanes: int | 
     forces = Gravity(), wind, *settings.forces
     call = live_call(moving, forces, free, lanes=lanes, motion=motion)
     shell = make_live_shell(
-        sewn.pieces[0].shell, MIDDLE, sewn.thickness, stager.light, *turning_of(stager.settings)
+        sewn.pieces[0].shell, MIDDLE, sewn.thickness, staging.light, *turning_of(staging.settings)
     )
     panel = make_live_panel(call, shell, {})
     return replace(panel, arrays={**panel.arrays, "row": call.live.row})
 
 
-def _with_figure(panel: LivePanel, played: PlayedGarment, stager: Stager) -> LivePanel:
+def _with_figure(panel: LivePanel, played: PlayedGarment, staging: Staging) -> LivePanel:
     """The panel with a call that poses the wearer."""
     wearer = played.wearer
     assert wearer is not None
@@ -161,7 +163,7 @@ def _with_figure(panel: LivePanel, played: PlayedGarment, stager: Stager) -> Liv
     poses = [wearer.poses(row * played.step) for row in range(sum(played.cycle))]
     table = np.array([[_flat(each, bone) for bone in bones] for each in poses])
     rigs = [model.rig for model in played.figures()]
-    light, turned = stager.light, turning_of(stager.settings)
+    light, turned = staging.light, turning_of(staging.settings)
     figure = make_live_figure(rigs, bones, table, MIDDLE, light, *turned)
     call = LiveKernel("pose", pose_figure, (panel.arrays["row"], figure))
     arrays = {"figure": figure.vertices, "figureLight": figure.light}

@@ -22,11 +22,11 @@ from drapery.render.soft.live_picture import draw_live, make_live_picture
 from drapery.scenes.stager import (
     LEE,
     STEP,
-    Stager,
+    LiveBody,
+    StagedBody,
     cloth_at_rest,
     cloth_spec,
     forces_of,
-    scene_at,
     wind_of,
 )
 from drapery.settings import Settings
@@ -82,24 +82,25 @@ def live_panels(
     host may replace `materials`, `layers` and `atlas`; the layers end with SPARE rows of zeros.
     Raises OptionError for settings that cannot be played without Python.
     """
-    stager = Stager(body, settings, ())
+    staged = StagedBody(body, settings)
+    staging = staged.staging
     for kind in ("motion", "shape"):
-        if stager.style.has(kind):
+        if staging.style.has(kind):
             raise OptionError(
                 f"a style with steps of {kind} cannot be played without Python; "
                 "use styles of materials and pictures only"
             )
-    if stager.settings.pose != "cloth":
-        raise OptionError(f"pose {stager.settings.pose} has no cloth to play; use pose cloth")
+    if staging.settings.pose != "cloth":
+        raise OptionError(f"pose {staging.settings.pose} has no cloth to play; use pose cloth")
     if not picture:
-        stager = Stager(body, _pulled(settings), ())
-        return [_live_panel(stager, panel, lanes) for panel in body.panels]
-    if len(body.panels) != 1 or stager.settings.pixel != 1 or stager.style.has("picture"):
+        staged = StagedBody(body, _pulled(settings))
+        return [_live_panel(staged, panel, lanes) for panel in body.panels]
+    if len(body.panels) != 1 or staging.settings.pixel != 1 or staging.style.has("picture"):
         raise OptionError(
             "pictures of several panels, of large pixels and of styles with steps of picture need "
             "Python; leave out the picture"
         )
-    return [_with_picture(stager, lanes)]
+    return [_with_picture(staged, lanes)]
 
 
 def _pulled(settings: Settings) -> Settings:
@@ -111,17 +112,18 @@ def _pulled(settings: Settings) -> Settings:
     return replace(settings, contact="world") if settings.contact == "all" else settings
 
 
-def _with_picture(stager: Stager, lanes: int | None) -> LivePanel:
+def _with_picture(staged: StagedBody, lanes: int | None) -> LivePanel:
     """The panel with a call that draws its body, with the time steps of `still`."""
-    time = stager.settings.time
+    body, settings = staged.body, staged.staging.settings
+    time = settings.time
     steps = math.ceil(time / STEP)
     step = time / steps if steps else STEP
-    panel = _live_panel(stager, stager.body.panels[0], lanes, step)
-    spec = cloth_spec(stager.body.panels[0], stager.settings, stager.body.solids)
-    posed = Stager(stager.body, stager.settings, [cloth_at_rest(spec, step)])
+    panel = _live_panel(staged, body.panels[0], lanes, step)
+    spec = cloth_spec(body.panels[0], settings, body.solids)
+    posed = LiveBody(body, settings, [cloth_at_rest(spec, step)])
     if steps:
         posed.advance(steps)
-    scene = scene_at(posed, time)
+    scene = posed.scene(time)
     live = make_live_picture(scene, len(scene.models) - 1, SPARE)
     vertices, normals = panel.arrays["vertices"], panel.arrays["normals"]
     draw = LiveKernel("draw", draw_live, (vertices, normals, live))
@@ -140,9 +142,11 @@ def _with_picture(stager: Stager, lanes: int | None) -> LivePanel:
     )
 
 
-def _live_panel(stager: Stager, panel: Panel, lanes: int | None, step: float = STEP) -> LivePanel:
-    settings = stager.settings
-    spec = cloth_spec(panel, settings, stager.body.solids)
+def _live_panel(
+    staged: StagedBody, panel: Panel, lanes: int | None, step: float = STEP
+) -> LivePanel:
+    settings = staged.staging.settings
+    spec = cloth_spec(panel, settings, staged.body.solids)
     wind = wind_of(settings)
     sheltered = settings.placement == "wall" and isinstance(settings.wind, int | float)
     lee = (1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0)
@@ -152,7 +156,7 @@ def _live_panel(stager: Stager, panel: Panel, lanes: int | None, step: float = S
         grid_shell(rows, columns, panel.uv_mapping),
         panel.origin,
         settings.thickness * panel.texel,
-        stager.light,
+        staged.staging.light,
         *turning_of(settings),
     )
     size = list(map(float, panel.size))

@@ -1,6 +1,6 @@
-"""The stager: it makes a body's cloth, steps it, thickens it, and lights it in a `Scene`.
+"""The cloth of a body: how it is made, moved, made thick and put into a `Scene`.
 
-Still pictures, loops, 3-D files and the studio's live cloth all use it, so they agree to the bit.
+Still pictures, loops, 3-D files and the studio's live cloth share it, so they agree to the bit.
 A panel of cloth is simulated in its own frame, its top edge along x through the origin, and moved
 to its place when it is drawn.
 """
@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import chain, islice
+from itertools import islice
 
 import numpy as np
 
@@ -36,19 +36,14 @@ from drapery.cloth.gathering import fold_count, gathered_state
 from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array, Mesh
-from drapery.render.camera import Camera
-from drapery.render.light import STUDIO_LIGHT, UNLIT, Light, lit_at
 from drapery.render.scene import Model, Scene
-from drapery.render.shadow import contact_shadow, shadow_corners
 from drapery.render.vectors import unit
-from drapery.render.views import find_view, frame_view, turntable
-from drapery.settings import Settings, background_colour
-from drapery.style.block import turn
-from drapery.style.body import Body, Panel, Part, Solid
+from drapery.scenes.staging import Staging
+from drapery.settings import Settings
+from drapery.style.body import Body, Panel, Solid
 from drapery.style.extrusion import Shell, thicken
 from drapery.style.kinds import body_of
 from drapery.style.sheet import Sheet
-from drapery.styles.catalogue import combined_style
 from drapery.styles.grids import grid_shell
 
 STEP = 1.0 / 60.0
@@ -57,8 +52,6 @@ SETTLING = 8.0
 """The cloth of a loop moves at least this long before it is recorded [s]."""
 FADE = 1.5
 """The end of a loop fades so long into the motion that leads to its start [s]."""
-SHOWN_GROUND = 0.4
-"""How much of the block below a banner is surely in the picture [m]."""
 WIND_AXIS = (0.35, 0.0, 1.0)
 """Where the wind blows to unless a direction is given: to the front and a little to the right."""
 ENDLESS = 1e3
@@ -168,14 +161,83 @@ def _less(corner: tuple[float, float, float], *origin: float) -> tuple[float, fl
     return x, y, z
 
 
-class Stager:
-    """A body in front of the camera at one moment; `advance` steps its cloth.
+class StagedBody:
+    """A body in its staging, and how it is drawn where its cloth is.
+
+    cover: makes the thick cloth of a shell, a sheet [m], [N, 3], and a thickness [m].
+    Raises OptionError.
+    """
+
+    def __init__(
+        self,
+        body: Body,
+        settings: Settings,
+        cover: Callable[[Shell, Array, float], Mesh] = thicken,
+    ) -> None:
+        self.body = body
+        self.staging = Staging(settings, body.ground, body.light, body.camera)
+        self.parts = [self.staging.turned(part.mesh) for part in body.parts]
+        self._cover = cover
+
+    def soft(self, sheets: Sequence[Array]) -> list[Mesh]:
+        """The stiff parts, then each panel as cloth: thick and in its place.
+
+        sheets: each panel's particles in its own frame [m], shape [N, 3].
+        """
+        panels = zip(self.body.panels, sheets, strict=True)
+        return [*self.parts, *(self._thick(panel, sheet) for panel, sheet in panels)]
+
+    def stiff(self, phases: Sequence[float]) -> list[Mesh]:
+        """The stiff parts, then each panel as the game draws it, at a phase 0..1 of its sway."""
+        panels = zip(self.body.panels, phases, strict=True)
+        thickness = self.staging.settings.thickness
+        boards = (panel.board(phase, thickness) for panel, phase in panels)
+        return [*self.parts, *map(self.staging.turned, boards)]
+
+    def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
+        """The meshes with the materials of a time [s]; body: another one, which gives them."""
+        shown, style = body or self.body, self.staging.style
+        materials = [part.material_at(time) for part in shown.parts]
+        materials += [style.material(panel.material_at(time)) for panel in shown.panels]
+        return [Model(mesh, (made,)) for mesh, made in zip(meshes, materials, strict=True)]
+
+    def moved(self, motions: Sequence[Array]) -> list[Array]:
+        """The motion of each panel after the style's steps. motions: [m], each [F, N, 3]."""
+        style = self.staging.style
+        if not style.has("motion"):
+            return [*motions]
+        panels = zip(self.body.panels, motions, strict=True)
+        return [style.move(self._sheet(panel, motion)).positions for panel, motion in panels]
+
+    def scenes(self, moments: Sequence[Sequence[Mesh]], times: Sequence[float]) -> Iterator[Scene]:
+        """A scene of the meshes of each moment, with the materials of its time [s].
+
+        A loop of what does not move is shown from all around.
+        """
+        is_cloth = self.staging.settings.pose == "cloth"
+        moves = any(is_cloth or panel.sway for panel in self.body.panels)
+        models = map(self.models, moments, times)
+        return self.staging.scenes(moments, models, around=len(moments) > 1 and not moves)
+
+    def _sheet(self, panel: Panel, positions: Array) -> Sheet:
+        columns, rows = self.staging.settings.grid
+        thickness = self.staging.settings.thickness * panel.texel
+        shell = grid_shell(rows, columns, panel.uv_mapping)
+        return Sheet(positions, shell, thickness, panel.texel, panel.size)
+
+    def _thick(self, panel: Panel, sheet: Array) -> Mesh:
+        thin = self._sheet(panel, sheet + panel.origin)
+        if self.staging.style.has("shape"):
+            return self.staging.turned(self.staging.style.mesh(thin))
+        return self.staging.turned(self._cover(thin.shell, thin.positions, thin.thickness))
+
+
+class LiveBody(StagedBody):
+    """A body at one moment; `advance` steps its cloth.
 
     cloths: one for each panel; at rest unless given, none for the game's own stiff pose.
     wind: the wind from now on. steps: how many time steps have been made.
-    cover: makes the thick cloth of a shell, a sheet [m], [N, 3], and a thickness [m].
-    style: the styles of the settings as one, which also gives the settings light and samples.
-    Raises OptionError.
+    cover: see `StagedBody`. Raises OptionError.
     """
 
     def __init__(
@@ -185,14 +247,10 @@ class Stager:
         cloths: Sequence[MovingCloth] | None = None,
         cover: Callable[[Shell, Array, float], Mesh] = thicken,
     ) -> None:
-        self.body = body
-        self._cover = cover
-        self.style = combined_style(settings.style)
-        self.settings = settings = self.style.settle(settings)
+        super().__init__(body, settings, cover)
+        settings = self.staging.settings
         self.wind = wind_of(settings)
         self.steps = 0
-        self.parts = [self.turned(part.mesh) for part in body.parts]
-        self.ground = [self._grounded(part) for part in body.ground]
         if cloths is None:
             moves = settings.pose == "cloth"
             cloths = [cloth_at_rest(spec) for spec in _specs(body, settings) if moves]
@@ -208,127 +266,20 @@ class Stager:
 
         Raises OptionError where the cloth has blown up; nothing has changed then.
         """
-        if self.settings.pose == "cloth":
-            forces = forces_of(self.settings, self.wind)
+        if self.staging.settings.pose == "cloth":
+            forces = forces_of(self.staging.settings, self.wind)
             self.cloths = [cloth.advance(forces, steps) for cloth in self.cloths]
         self.steps += steps
 
     def meshes(self) -> list[Mesh]:
         """What is drawn at this moment; see `soft` and `stiff`."""
-        if self.settings.pose == "cloth":
+        if self.staging.settings.pose == "cloth":
             return self.soft([cloth.state.positions[0] for cloth in self.cloths])
         return self.stiff([_phase(panel, self.time) for panel in self.body.panels])
 
-    def soft(self, sheets: Sequence[Array]) -> list[Mesh]:
-        """The stiff parts, then each panel as cloth: thick and in its place.
-
-        sheets: each panel's particles in its own frame [m], shape [N, 3].
-        """
-        panels = zip(self.body.panels, sheets, strict=True)
-        return [*self.parts, *(self._thick(panel, sheet) for panel, sheet in panels)]
-
-    def stiff(self, phases: Sequence[float]) -> list[Mesh]:
-        """The stiff parts, then each panel as the game draws it, at a phase 0..1 of its sway."""
-        panels, thickness = zip(self.body.panels, phases, strict=True), self.settings.thickness
-        boards = (panel.board(phase, thickness) for panel, phase in panels)
-        return [*self.parts, *map(self.turned, boards)]
-
-    def camera(self, points: Sequence[Array], aspect: float) -> Camera:
-        """The body's own camera, or one that frames points [m], each [..., 3], in the view."""
-        if self.body.camera is not None:
-            return self.body.camera
-        return frame_view(self.settings.view, self.framed(points), aspect)
-
-    def cameras(self, points: Sequence[Array], aspect: float, count: int) -> list[Camera]:
-        """The camera of each of `count` moments: the same one, or once around points [m]."""
-        if self.settings.turntable and self.body.camera is None:
-            view = find_view(self.settings.view)
-            return turntable(view, self.framed(points), aspect, count)
-        return [self.camera(points, aspect)] * count
-
-    def framed(self, points: Sequence[Array]) -> Array:
-        """Points of the body [m] with those of the block below and of the shadow, shape [N, 3].
-
-        The block counts down to SHOWN_GROUND. A wall does not: it fills the picture.
-        """
-        every = np.concatenate([part.reshape(-1, 3) for part in points])
-        below = self.ground if self.settings.placement == "standing" else []
-        lowest = np.array([-np.inf, -SHOWN_GROUND, -np.inf])
-        more = [every, *(np.maximum(model.mesh.positions, lowest) for model in below)]
-        if self.settings.shadow:
-            more.append(shadow_corners(every, min(0.0, float(every[:, 1].min()))))
-        return np.concatenate(more)
-
-    def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
-        """The meshes with the materials of a time [s]; body: another one, which gives them."""
-        shown = body or self.body
-        materials = [part.material_at(time) for part in shown.parts]
-        materials += [self.style.material(panel.material_at(time)) for panel in shown.panels]
-        return [Model(mesh, (made,)) for mesh, made in zip(meshes, materials, strict=True)]
-
-    def contact(self, models: Sequence[Model], floor: float) -> Model:
-        """The contact shadow of models on a floor [m], or on the block below them."""
-        has_block = self.ground and self.settings.placement == "standing"
-        return contact_shadow(models, floor, within=self._ground_extent() if has_block else None)
-
-    def _ground_extent(self) -> tuple[float, float, float, float]:
-        """Lowest x and z of the block below, then the highest [m]."""
-        points = np.concatenate([model.mesh.positions for model in self.ground])[:, [0, 2]]
-        (x0, z0), (x1, z1) = points.min(axis=0), points.max(axis=0)
-        return float(x0), float(z0), float(x1), float(z1)
-
-    def scene(self, models: Sequence[Model], camera: Camera, shadow: Model | None = None) -> Scene:
-        """The models in the body's light. shadow: that of the settings, made here unless given."""
-        settings = self.settings
-        if settings.shadow:
-            under = shadow or self.contact(models, floor_under([m.mesh for m in models]))
-            models = [under, *models]
-        return Scene(
-            (*self.ground, *models),
-            camera,
-            settings.drawn_size,
-            self.light,
-            background_colour(settings.background),
-            settings.sample_count,
-        )
-
-    @property
-    def light(self) -> Light:
-        """The light of the settings."""
-        settings = self.settings
-        lights = {"flat": UNLIT, "studio": STUDIO_LIGHT, "game": self.body.light}
-        light = lights[settings.lighting]
-        return lit_at(light, settings.block_light, settings.sky_light, settings.daylight)
-
-    def moved(self, motions: Sequence[Array]) -> list[Array]:
-        """The motion of each panel after the style's steps. motions: [m], each [F, N, 3]."""
-        if not self.style.has("motion"):
-            return [*motions]
-        panels = zip(self.body.panels, motions, strict=True)
-        return [self.style.move(self._sheet(panel, motion)).positions for panel, motion in panels]
-
-    def _sheet(self, panel: Panel, positions: Array) -> Sheet:
-        columns, rows = self.settings.grid
-        thickness = self.settings.thickness * panel.texel
-        shell = grid_shell(rows, columns, panel.uv_mapping)
-        return Sheet(positions, shell, thickness, panel.texel, panel.size)
-
-    def _thick(self, panel: Panel, sheet: Array) -> Mesh:
-        if self.style.has("shape"):
-            return self.turned(self.style.mesh(self._sheet(panel, sheet + panel.origin)))
-        columns, rows = self.settings.grid
-        shell = grid_shell(rows, columns, panel.uv_mapping)
-        thickness = self.settings.thickness * panel.texel
-        return self.turned(self._cover(shell, sheet + panel.origin, thickness))
-
-    def _grounded(self, part: Part) -> Model:
-        """A part of the ground: a wall turns with its banner, the block below does not."""
-        mesh = self.turned(part.mesh) if self.settings.placement == "wall" else part.mesh
-        return Model(mesh, (part.material_at(0.0),))
-
-    def turned(self, mesh: Mesh) -> Mesh:
-        """A mesh turned by the rotation or facing of the settings."""
-        return turn(mesh, self.settings.turned) if self.settings.turned else mesh
+    def scene(self, time: float) -> Scene:
+        """The scene of this moment, with the materials of a time [s]: see `still`."""
+        return next(self.scenes([self.meshes()], [time]))
 
 
 def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
@@ -337,17 +288,17 @@ def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
     design: None for a cape or elytra. Raises OptionError or PackError.
     """
     body, steps = body_of(design, packs, settings), math.ceil(settings.time / STEP)
-    stager = Stager(body, settings, ())
+    staged = StagedBody(body, settings)
     if settings.pose == "cloth":
         dt = settings.time / steps if steps else STEP
         at = Moments(dt, steps or 1, min(steps, 1), 1)
         moments = [
             _recorded(spec, settings, at)[0].positions[:1] for spec in _specs(body, settings)
         ]
-        meshes = stager.soft([motion[0] for motion in stager.moved(moments)])
+        meshes = staged.soft([motion[0] for motion in staged.moved(moments)])
     else:
-        meshes = stager.stiff([_phase(panel, settings.time) for panel in body.panels])
-    return next(_scenes(stager, [meshes], [settings.time]))
+        meshes = staged.stiff([_phase(panel, settings.time) for panel in body.panels])
+    return next(staged.scenes([meshes], [settings.time]))
 
 
 def loop(
@@ -359,16 +310,16 @@ def loop(
     that does not move is shown from all around. Raises OptionError or PackError.
     """
     body = body_of(design, packs, settings)
-    stager, frames = Stager(body, settings, ()), range(count)
+    staged, frames = StagedBody(body, settings), range(count)
     if settings.pose == "cloth":
         specs = _specs(body, settings)
-        motions = stager.moved([_periodic(spec, settings, count, fps) for spec in specs])
-        moments = [stager.soft([motion[frame] for motion in motions]) for frame in frames]
+        motions = staged.moved([_periodic(spec, settings, count, fps) for spec in specs])
+        moments = [staged.soft([motion[frame] for motion in motions]) for frame in frames]
     else:
         # A whole number of the game's sways fills the loop.
         sways = [max(1, round(_phase(panel, count / fps))) for panel in body.panels]
-        moments = [stager.stiff([n * frame / count for n in sways]) for frame in frames]
-    return _scenes(stager, moments, texture_times(body.period, count, fps))
+        moments = [staged.stiff([n * frame / count for n in sways]) for frame in frames]
+    return staged.scenes(moments, texture_times(body.period, count, fps))
 
 
 def texture_times(period: float, count: int, fps: float) -> list[float]:
@@ -388,35 +339,6 @@ def texture_times(period: float, count: int, fps: float) -> list[float]:
         )
     pace = periods * period / length if periods else 1.0
     return [pace * frame / fps for frame in range(count)]
-
-
-def _scenes(
-    stager: Stager, moments: Sequence[Sequence[Mesh]], times: Sequence[float]
-) -> Iterator[Scene]:
-    """A scene of the meshes of each moment. One camera frames all of them; a loop of what does not
-    move gets the cameras of a turntable instead."""
-    settings, body, meshes = stager.settings, stager.body, [*chain(*moments)]
-    points = np.concatenate([mesh.positions for mesh in meshes])
-    aspect, floor = settings.size[0] / settings.size[1], floor_under(meshes)
-    cameras = stager.cameras([points], aspect, len(moments))
-    moves = any(settings.pose == "cloth" or panel.sway for panel in body.panels)
-    if len(moments) > 1 and not moves and body.camera is None:
-        view = find_view(settings.view)
-        cameras = turntable(view, stager.framed([points]), aspect, len(moments))
-    for moment, time, camera in zip(moments, times, cameras, strict=True):
-        models = stager.models(moment, time)
-        shadow = stager.contact(models, floor) if settings.shadow else None
-        yield stager.scene(models, camera, shadow)
-
-
-def scene_at(stager: Stager, time: float) -> Scene:
-    """The scene of a stager's body as it is, with the materials of a time [s]: see `still`."""
-    return next(_scenes(stager, [stager.meshes()], [time]))
-
-
-def floor_under(meshes: Sequence[Mesh]) -> float:
-    """The height of the floor [m]: 0, or the lowest vertex if that is lower."""
-    return min(0.0, *(float(mesh.positions[..., 1].min()) for mesh in meshes))
 
 
 def _phase(panel: Panel, time: float) -> float:

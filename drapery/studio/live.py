@@ -1,4 +1,4 @@
-"""The live banner: it uses the same stager as pictures, but advances it step by step.
+"""The live banner: it is the body of pictures, but its cloth advances step by step.
 
 Its wind can change and its cloth can be grabbed. All changes are calls between time steps, so the
 same calls in the same order give a bit-identical motion. Without such calls the motion is the same
@@ -16,7 +16,7 @@ from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.packs import Packs
 from drapery.render import Camera, Model
-from drapery.scenes import STEP, Stager, cloth_spec, floor_under
+from drapery.scenes import STEP, LiveBody, cloth_spec, floor_under
 from drapery.settings import Settings
 from drapery.studio.live_cloth import LiveCloth, new_live_cloth
 from drapery.studio.wind_controls import (
@@ -63,18 +63,18 @@ class Live:
         self._captions: tuple[str, ...] = ("",)
         self._held: int | None = None
         self._shadow: tuple[int, Model] | None = None
-        self._stager = Stager(body_of(design, packs, settings), settings, (), cover=_thicken)
-        self._stager.cloths = [*self._cloths_for(self._stager.body, settings)]
+        self._live = LiveBody(body_of(design, packs, settings), settings, (), cover=_thicken)
+        self._live.cloths = [*self._cloths_for(self._live.body, settings)]
 
     @property
     def time(self) -> float:
         """The simulated time [s]."""
-        return self._stager.time
+        return self._live.time
 
     @property
     def is_picture(self) -> bool:
         """Whether it equals a picture of this `time`: true if only the settings' wind moved it."""
-        own = wind_controls_of(self._stager.settings)
+        own = wind_controls_of(self._settings)
         return not self._disturbed and self.wind_controls == own
 
     def update(
@@ -90,25 +90,25 @@ class Live:
         beside: other packs; then the design is shown twice, side by side. captions: the labels of
         the two sides. Raises OptionError or PackError; then nothing changes.
         """
-        before = self._stager
+        before = self._live
         body = body_of(design, packs, settings)
         other = None if beside is None else body_of(design, beside, settings)
-        stager = Stager(body, settings, self._cloths_for(body, settings), cover=_thicken)
-        stager.wind, stager.steps = before.wind, before.steps
-        self._stager, self._other = stager, other
+        live = LiveBody(body, settings, self._cloths_for(body, settings), cover=_thicken)
+        live.wind, live.steps = before.wind, before.steps
+        self._live, self._other = live, other
         self._captions = captions if other is not None else ("",)
         self._shadow = None
         # Keep a wind that keys have changed, unless the wind of the settings has changed.
-        if wind_controls_of(settings) != wind_controls_of(before.settings):
+        if wind_controls_of(settings) != wind_controls_of(before.staging.settings):
             self.set_wind(wind_controls_of(settings, self.wind_controls.on))
 
     def set_wind(self, controls: WindControls) -> None:
         """Replace the wind; it applies from the next time step."""
-        stager = self._stager
-        self._disturbed |= stager.steps > 0
+        live = self._live
+        self._disturbed |= live.steps > 0
         self.wind_controls = controls
         wind = controls.wind
-        stager.wind = carried_on(stager.wind, wind, self.time) if stager.steps else wind
+        live.wind = carried_on(live.wind, wind, self.time) if live.steps else wind
 
     def press(self, keys: Iterable[str], azimuth: float) -> None:
         """Hold these keys until the next call; see `steered`.
@@ -127,9 +127,9 @@ class Live:
         self._disturbed = False
         self._held = None
         self._shadow = None
-        self._stager.steps = 0
-        self._stager.wind = self.wind_controls.wind
-        self._stager.cloths = [new_live_cloth(cloth.spec) for cloth in self._cloths]
+        self._live.steps = 0
+        self._live.wind = self.wind_controls.wind
+        self._live.cloths = [new_live_cloth(cloth.spec) for cloth in self._cloths]
 
     def grab(self, ray: Ray) -> bool:
         """Grab the free particle nearest to a line of sight; False if there is none."""
@@ -154,7 +154,7 @@ class Live:
         depth = float(np.sum(ray.along * ray.facing))
         if self._held is None or grab is None or abs(depth) < 1e-6:
             return
-        at = _to_world(self._stager, self._held, grab.target)
+        at = _to_world(self._live, self._held, grab.target)
         share = float(np.sum((at - ray.origin) * ray.facing)) / depth
         target = self._from_world(self._held, ray.origin + share * ray.along)
         self._replace(self._held, self._cloths[self._held].pulled(target))
@@ -170,14 +170,14 @@ class Live:
         each = 1 if self._keys else steps
         for _ in range(0, steps, each):
             if self._keys:
-                azimuth = self._azimuth + self._stager.settings.turned
+                azimuth = self._azimuth + self._settings.turned
                 self.set_wind(steered(self.wind_controls, self._keys, azimuth, STEP))
             try:
-                self._stager.advance(each)
+                self._live.advance(each)
             except OptionError as error:
                 self.reset()
                 raise OptionError(
-                    f"the cloth blew up with the solver {self._stager.settings.solver} and starts"
+                    f"the cloth blew up with the solver {self._settings.solver} and starts"
                     " again at rest; use another solver, a coarser grid or less wind"
                 ) from error
 
@@ -187,30 +187,34 @@ class Live:
 
     def shown(self) -> ViewerState:
         """What the viewer shows at this moment."""
-        stager, settings = self._stager, self._stager.settings
-        meshes = stager.meshes()
-        bodies = (stager.body, *([] if self._other is None else [self._other]))
+        live, settings = self._live, self._settings
+        meshes = live.meshes()
+        bodies = (live.body, *([] if self._other is None else [self._other]))
         moves = self.leaves_room and settings.pose == "cloth"
         rests = [cloth.whole.rest_positions for cloth in self._cloths] if moves else []
-        framing = partial(_camera, stager, meshes, rests)
+        framing = partial(_camera, live, meshes, rests)
         panes = []
         for body, caption in zip(bodies, self._captions, strict=True):
-            models = stager.models(meshes, self.time, body)
+            models = live.models(meshes, self.time, body)
             shadow = self._shadow_of(models) if settings.shadow else None
-            scene = stager.scene(models, stager.body.camera or UNFRAMED, shadow)
+            scene = live.staging.scene(models, live.body.camera or UNFRAMED, shadow)
             panes.append(Pane(scene, framing, caption))
-        first = len(stager.parts) + int(settings.shadow)
+        first = len(live.parts) + int(settings.shadow)
         soft = settings.pose == "cloth"
         grip = frozenset(range(first, len(meshes) + int(settings.shadow)) if soft else ())
         controls = self.wind_controls
         wind = (controls.speed, controls.heading - settings.turned, controls.on) if grip else None
         framed = (settings.view, settings.kind, settings.placement, settings.pose, settings.pins)
-        cut = (*framed, len(stager.parts), self._cuts)
+        cut = (*framed, len(live.parts), self._cuts)
         return ViewerState(tuple(panes), len(panes), grip, True, wind, cut, self.time)
 
     @property
+    def _settings(self) -> Settings:
+        return self._live.staging.settings
+
+    @property
     def _cloths(self) -> list[LiveCloth]:
-        return [cloth for cloth in self._stager.cloths if isinstance(cloth, LiveCloth)]
+        return [cloth for cloth in self._live.cloths if isinstance(cloth, LiveCloth)]
 
     def _cloths_for(self, body: Body, settings: Settings) -> list[LiveCloth]:
         """A cloth for each panel: the current one, or a new one if its spec has changed."""
@@ -219,27 +223,27 @@ class Live:
         for number, panel in enumerate(body.panels):
             spec, cloth = cloth_spec(panel, settings, body.solids), old.get(number)
             if cloth is None or cloth.spec != spec:
-                self._disturbed |= self._stager.steps > 0
+                self._disturbed |= self._live.steps > 0
                 cloth = new_live_cloth(spec) if cloth is None else cloth.remade(spec)
             cloths.append(cloth)
         return cloths
 
     def _replace(self, number: int, cloth: LiveCloth) -> None:
-        self._stager.cloths[number] = cloth
+        self._live.cloths[number] = cloth
 
     def _shadow_of(self, models: Sequence[Model]) -> Model:
-        steps = self._stager.steps
+        steps = self._live.steps
         if self._shadow is None or abs(steps - self._shadow[0]) >= SHADOW_STEPS:
             floor = floor_under([model.mesh for model in models])
-            self._shadow = steps, self._stager.contact(models, floor)
+            self._shadow = steps, self._live.staging.contact(models, floor)
         return self._shadow[1]
 
     def _nearest(self, number: int, cloth: LiveCloth, ray: Ray) -> tuple[float, int | None]:
         """The free particle nearest to a line of sight, and their squared distance [m²]."""
         among = cloth.free
-        if self._stager.settings.pose != "cloth" or not len(among):
+        if self._settings.pose != "cloth" or not len(among):
             return np.inf, None
-        places = _to_world(self._stager, number, cloth.positions[among])
+        places = _to_world(self._live, number, cloth.positions[among])
         along = ray.along / np.sqrt(np.sum(ray.along * ray.along))
         off = np.cross(places - ray.origin, along)
         misses = np.sum(off * off, axis=1)
@@ -247,8 +251,8 @@ class Live:
         return float(misses[best]), int(among[best])
 
     def _from_world(self, number: int, points: Array) -> Array:
-        origin = self._stager.body.panels[number].origin
-        return _turned_points(points, -self._stager.settings.turned) - origin
+        origin = self._live.body.panels[number].origin
+        return _turned_points(points, -self._settings.turned) - origin
 
 
 def _thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
@@ -257,21 +261,21 @@ def _thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
     return replace(mesh, positions=mesh.positions[0], normals=mesh.normals[0])
 
 
-def _to_world(stager: Stager, number: int, points: Array) -> Array:
+def _to_world(live: LiveBody, number: int, points: Array) -> Array:
     """Convert points from a cloth's frame to the world's [m], shape [..., 3]."""
-    return _turned_points(points + stager.body.panels[number].origin, stager.settings.turned)
+    return _turned_points(points + live.body.panels[number].origin, live.staging.settings.turned)
 
 
 def _camera(
-    stager: Stager, meshes: Sequence[Mesh], rests: Sequence[Array], aspect: float
+    live: LiveBody, meshes: Sequence[Mesh], rests: Sequence[Array], aspect: float
 ) -> Camera:
     """A camera that frames meshes, and cloths that swing about their rest positions [m]."""
     swung = [
-        _to_world(stager, number, rest + swing)
+        _to_world(live, number, rest + swing)
         for number, rest in enumerate(rests)
         for swing in SWINGS
     ]
-    return stager.camera([*(mesh.positions for mesh in meshes), *swung], aspect)
+    return live.staging.camera([*(mesh.positions for mesh in meshes), *swung], aspect)
 
 
 def _turned_points(points: Array, degrees: float) -> Array:

@@ -33,7 +33,8 @@ from drapery.option import Subject
 from drapery.packs import Packs
 from drapery.render import Material, TextureLayer
 from drapery.scenes import (
-    Stager,
+    LiveBody,
+    Staging,
     cloth_at_rest,
     cloth_spec,
     floor_under,
@@ -64,12 +65,13 @@ def scene_bytes(
     WasmBuildError where the kernels of the cloth are not built.
     """
     body = body_of(design, packs, settings)
-    stager = Stager(body, settings)
-    _check(stager.settings, stager.style, bool(stager.cloths))
-    styled = stager.style.has("material")  # its steps need all layers of one design
+    live = LiveBody(body, settings)
+    staging = live.staging
+    _check(staging.settings, staging.style, bool(live.cloths))
+    styled = staging.style.has("material")  # its steps need all layers of one design
     shown, sheets = (body, None) if styled or not design else _with_sheets(body, packs, patterns)
-    settings = stager.settings
-    scene = _first_message(_state(stager, shown), settings)
+    settings = staging.settings
+    scene = _first_message(_state(live, shown), settings)
     scene[0].update(sheets=sheets, turned=settings.turned)
     try:
         scene[1]["still"] = _still(shown, settings)
@@ -81,16 +83,16 @@ def scene_bytes(
 def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> bytes:
     """The file of a garment on its wearer, in the wind of the settings. Errors: `scene_bytes`."""
     settings = settled(settings, Subject("garment"), own=garment.picture)
-    stager = Stager(Body(), settings, ())
-    _check(stager.settings, stager.style, True)
+    staging = Staging(settings)
+    _check(staging.settings, staging.style, True)
     played = played_garment(garment, packs, settings)
     first, cloths = played.first_scene(), len(played.cloths)
     last, figures = len(first.models) - cloths, len(played.figures())
     grip = frozenset(range(last, len(first.models)))
     pane = Pane(first, lambda aspect: first.camera)
-    scene = _first_message(ViewerState((pane,), grip=grip, live=True), stager.settings)
+    scene = _first_message(ViewerState((pane,), grip=grip, live=True), staging.settings)
     header, arrays = scene
-    header.update(sheets=None, turned=stager.settings.turned)
+    header.update(sheets=None, turned=staging.settings.turned)
     header["noPicture"] = "pictures of players and garments need Python"
     if figures:
         runs = header["runs"][last - figures : last]
@@ -163,27 +165,27 @@ def _with_sheets(body: Body, packs: Packs, patterns: Sequence[str]) -> tuple[Bod
     return replace(body, panels=tuple(replace(p, material_at=at) for p in body.panels)), names
 
 
-def _state(stager: Stager, shown: Body) -> ViewerState:
-    meshes = stager.meshes()
-    models = stager.models(meshes, 0.0, shown)
+def _state(live: LiveBody, shown: Body) -> ViewerState:
+    staging, meshes = live.staging, live.meshes()
+    models = live.models(meshes, 0.0, shown)
     shadow = None
-    if stager.settings.shadow:
-        shadow = stager.contact(models, floor_under(meshes))
-    framing = partial(stager.camera, [*(mesh.positions for mesh in meshes), *_swings(stager)])
-    scene = stager.scene(models, framing(1.0), shadow)
+    if staging.settings.shadow:
+        shadow = staging.contact(models, floor_under(meshes))
+    framing = partial(staging.camera, [*(mesh.positions for mesh in meshes), *_swings(live)])
+    scene = staging.scene(models, framing(1.0), shadow)
     last = len(scene.models)
-    grip = frozenset(range(last - len(stager.body.panels), last))
+    grip = frozenset(range(last - len(live.body.panels), last))
     return ViewerState((Pane(scene, framing),), grip=grip, live=True)
 
 
-def _swings(stager: Stager) -> list[Array]:
+def _swings(live: LiveBody) -> list[Array]:
     """Where light wind moves the cloth [m], each [N, 3]."""
-    specs = [cloth_spec(panel, stager.settings) for panel in stager.body.panels]
+    specs = [cloth_spec(panel, live.staging.settings) for panel in live.body.panels]
     rests = [cloth_at_rest(spec).cloth.rest_positions for spec in specs]
     points = [
         rest + panel.origin + swing
-        for rest, panel in zip(rests, stager.body.panels, strict=True)
+        for rest, panel in zip(rests, live.body.panels, strict=True)
         for swing in SWINGS
     ]
     nothing = np.zeros((0, 3), np.int32)
-    return [stager.turned(Mesh(each, each, nothing, each)).positions for each in points]
+    return [live.staging.turned(Mesh(each, each, nothing, each)).positions for each in points]
