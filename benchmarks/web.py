@@ -130,7 +130,8 @@ def worn(wear: str, solver: Any) -> tuple[LivePanel, str, float]:
     garment = dressed_player(make_wearer(motion="walk", speed=1.5), wear=[wear])
     dressed = played_garment(garment, open_packs(()), garment.settings(solver=solver))
     sewn = dressed.cloths[-1]
-    moving, forces, pins = dressed.begun(sewn), dressed.forces(sewn, None), dressed.pins(sewn)
+    drape = dressed.drape(sewn)
+    moving, forces, pins = drape.begin(dressed.step), drape.forces(None), drape.pins
     moving.advance(forces, 1, pins)  # loads the kernels
     start = time.process_time()
     state = moving.advance(forces, STEPS, pins).state

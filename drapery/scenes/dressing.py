@@ -4,12 +4,10 @@ A garment's origin is the middle of a block, as that of a banner. The air comes 
 that walks at the speed of its walk, so its cloth moves as on one that walks through the wind.
 """
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import islice, product
-from typing import TypeVar
+from itertools import product
 
 import numpy as np
 
@@ -19,12 +17,9 @@ from drapery.cloth import (
     Collider,
     Collisions,
     Force,
-    MovingCloth,
     Plane,
-    Solver,
     State,
     Wind,
-    simulate,
 )
 from drapery.cloth.solvers.registry import solver
 from drapery.garments.assembly import SewnCloth, tailor
@@ -34,16 +29,10 @@ from drapery.garments.model import Garment, GarmentPole
 from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
 from drapery.render.scene import Model, RiggedModel, Scene
-from drapery.scenes.layered import WornCloth, common_bones, layered_motion, meet_each_other
+from drapery.scenes.layered import common_bones, joint_contact, meet_each_other
 from drapery.scenes.moving import in_wind
-from drapery.scenes.stager import (
-    FADE,
-    SETTLING,
-    STEP,
-    Moments,
-    close_loop,
-    wind_of,
-)
+from drapery.scenes.recording import Drape, Meeting, Schedule, record
+from drapery.scenes.stager import STEP, wind_of
 from drapery.scenes.staging import Staging
 from drapery.scenes.styling import moved_by_style, tailored
 from drapery.scenes.wearers import Wearer, wearer_of
@@ -55,8 +44,6 @@ from drapery.style.body import Part
 from drapery.style.ground import ground_of
 from drapery.style.rig import moved_rig
 from drapery.style.scenery import pole, pole_frame
-
-T = TypeVar("T")
 
 WORN_STEP = STEP / 2
 """The longest time step of cloth on a wearer, whose legs move fast [s]."""
@@ -70,6 +57,8 @@ BEHIND_ROUNDS = 2
 """Garments are put outside each other and behind a shield so often in turn."""
 EDGE = 0.2
 """A garment may hang over the edge of its ground by this length [m]."""
+ROUNDING = 1e-9
+"""The share of a time step by which steps may be longer, see `Schedule`."""
 FRICTION = 0.6
 """Of cloth on the ground; on all else that of its fabric counts."""
 
@@ -80,10 +69,8 @@ def garment_still(garment: Garment, packs: Packs, settings: Settings) -> Scene:
     Raises OptionError or PackError.
     """
     dressed = Dressed(garment, packs, settings)
-    steps = math.ceil(settings.time / dressed.step - 1e-9)
-    at = Moments(settings.time / steps if steps else STEP, steps or 1, min(steps, 1), 1)
-    sheets = dressed.record(at)
-    return next(dressed.scenes(sheets, [settings.time]))
+    at = Schedule.still(settings.time, dressed.step, ROUNDING)
+    return next(dressed.scenes(dressed.record(at), at.times))
 
 
 def garment_moments(
@@ -94,7 +81,8 @@ def garment_moments(
     Raises OptionError or PackError.
     """
     dressed = Dressed(garment, packs, settings)
-    return dressed.scenes(dressed.sheets(times), times)
+    at = Schedule.at(times, dressed.step)
+    return dressed.scenes(dressed.record(at), times)
 
 
 def garment_loop(
@@ -110,15 +98,10 @@ def garment_loop(
     on_moment: called after each simulated moment; it may raise to end the simulation.
     Raises OptionError or PackError.
     """
-    period = count / fps
-    dressed = Dressed(garment, packs, settings, period, on_moment)
-    steps = math.ceil(1 / (fps * dressed.step) - 1e-9)
-    before = min(count, math.ceil(FADE * fps))
-    first = math.ceil(SETTLING / period) * count - before
-    at = Moments(1 / (fps * steps), steps, first, before + count, period)
-    sheets = [close_loop(sheet, before) for sheet in dressed.record(at)]
+    dressed = Dressed(garment, packs, settings, count / fps, on_moment)
+    at = Schedule.loop(count, fps, dressed.step, ROUNDING)
     # The figure is drawn as it is after it has settled.
-    return dressed.scenes(sheets, [(first + before + frame) / fps for frame in range(count)])
+    return dressed.scenes(dressed.record(at), at.times)
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,72 +208,33 @@ class Dressed:
         x, y, z = wind.velocity
         return replace(wind, velocity=(x, y, z - who.speed), ripples=0.0, vortices=0.0)
 
-    def record(self, at: Moments) -> list[Array]:
-        """The positions of each cloth at some moments [m], each [F, N, 3]."""
-        collisions = self.garment.collisions
-        together = meet_each_other(self.cloths) if self.wearer and collisions != "none" else []
-        found = dict(zip(together, self._record_together(together, at), strict=True))
-        return [
-            found[number] if number in found else self._record_alone(sewn, at)
-            for number, sewn in enumerate(self.cloths)
-        ]
-
-    def _record_alone(self, sewn: SewnCloth, at: Moments) -> Array:
-        states = simulate(
+    def drape(self, sewn: SewnCloth) -> Drape:
+        """A cloth in the wind, with what it meets beside other garments."""
+        start, method = sewn.start[None], self.settings.solver
+        return Drape(
             sewn.cloth,
-            self._solver,
-            self.forces(sewn, at.period),
-            at.dt,
-            start=_begun(sewn),
-            every=at.every,
-            pins=None if self.wearer is None else sewn.pin_path(self.wearer.poses),
-            collisions=self._collisions(sewn),
+            State(start, np.zeros_like(start)),
+            solver(method) if isinstance(method, str) else method,
+            lambda period: self.forces(sewn, period),
+            self._collisions(sewn),
+            None if self.wearer is None else sewn.pin_path(self.wearer.poses),
         )
-        moments = self._moments_of(states, at)
-        return np.stack([state.positions[0] for state in moments])
 
-    def _record_together(self, numbers: Sequence[int], at: Moments) -> list[Array]:
-        """The same for cloths that meet each other; see `layered_motion`."""
+    def record(self, at: Schedule) -> list[Array]:
+        """The positions of each cloth at the moments of a schedule [m], each [F, N, 3]."""
+        drapes = [self.drape(sewn) for sewn in self.cloths]
+        return record(drapes, at, self._meeting(), self.on_moment)
+
+    def _meeting(self) -> Meeting | None:
+        """The contact of cloths that meet each other; None if none do."""
+        met = self.garment.collisions != "none"
+        numbers = meet_each_other(self.cloths) if self.wearer is not None and met else []
         if not numbers or self.wearer is None:
-            return []
-        sewn = [self.cloths[number] for number in numbers]
-        worn = [
-            WornCloth(
-                MovingCloth.begin(
-                    each.cloth,
-                    self._solver,
-                    at.dt,
-                    start=_begun(each),
-                    collisions=self._collisions(each),
-                ),
-                self.forces(each, at.period),
-                each.pin_path(self.wearer.poses),
-            )
-            for each in sewn
-        ]
+            return None
+        sewn, poses = [self.cloths[number] for number in numbers], self.wearer.poses
         common = replace(sewn[0], solid=common_bones(sewn, tuple(self.wearer.parts)))
-        poses = self.wearer.poses
-        motion = layered_motion(
-            sewn,
-            worn,
-            self.colliders(common, *sewn[1:]),
-            lambda time: poses(time)["body"],
-            at.every,
-        )
-        moments = self._moments_of(motion, at)
-        return [np.stack(moment) for moment in zip(*moments, strict=True)]
-
-    def _moments_of(self, motion: Iterator[T], at: Moments) -> Iterator[T]:
-        for number, moment in enumerate(islice(motion, at.first + at.count)):
-            if self.on_moment is not None:
-                self.on_moment()
-            if number >= at.first:
-                yield moment
-
-    @property
-    def _solver(self) -> Solver:
-        method = self.settings.solver
-        return solver(method) if isinstance(method, str) else method
+        colliders = self.colliders(common, *sewn[1:])
+        return Meeting(numbers, joint_contact(sewn, colliders, lambda time: poses(time)["body"]))
 
     def _collisions(self, sewn: SewnCloth) -> Collisions | None:
         """What a cloth meets beside other garments."""
@@ -305,9 +249,7 @@ class Dressed:
 
         times: [s], rounded to time steps. Raises OptionError.
         """
-        steps = [round(time / self.step) for time in times]
-        at = Moments(self.step, 1, 0, max(steps) + 1)
-        return [sheet[steps] for sheet in self.record(at)]
+        return self.record(Schedule.at(times, self.step))
 
     def scenes(self, sheets: Sequence[Array], times: Sequence[float]) -> Iterator[Scene]:
         """A scene of each moment. sheets: of each cloth at all moments [m], each [F, N, 3].
@@ -392,11 +334,6 @@ def _begins_in(sewn: SewnCloth, box: Box) -> bool:
     places = sampled(sewn.start, sewn.cloth.triangles)
     away = np.abs(places - box.centre) - np.asarray(box.size) / 2
     return bool((away.max(axis=1) < sewn.distance / 2).any())
-
-
-def _begun(sewn: SewnCloth) -> State:
-    """A cloth before its first step."""
-    return State(sewn.start[None], np.zeros_like(sewn.start)[None])
 
 
 def _shifted(model: Model, by: Array) -> Model:

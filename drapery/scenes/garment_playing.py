@@ -12,7 +12,7 @@ from functools import cache, cached_property
 import numpy as np
 
 from drapery.banner.packs import Packs
-from drapery.cloth import Gravity, MovingCloth, PinPath, State, Wind
+from drapery.cloth import Gravity, State, Wind
 from drapery.cloth.live import LiveMotion, live_call
 from drapery.errors import OptionError
 from drapery.garments.assembly import SewnCloth
@@ -26,6 +26,7 @@ from drapery.scenes.dressing import MIDDLE, WORN_STEP, Dressed
 from drapery.scenes.layered import meet_each_other
 from drapery.scenes.player_motion import RAMP, STRIDE, Poses
 from drapery.scenes.playing import LiveKernel, LivePanel, make_live_panel, turning_of
+from drapery.scenes.recording import Drape
 from drapery.scenes.stager import wind_of
 from drapery.scenes.staging import Staging
 from drapery.scenes.wearers import Wearer
@@ -61,16 +62,11 @@ class PlayedGarment(Dressed):
         found = super().wearer
         return found and replace(found, poses=_repeated(found.poses, self.step, *self.cycle))
 
-    def begun(self, sewn: SewnCloth) -> MovingCloth:
-        """A cloth before its first step, in single precision."""
-        start = np.asarray(sewn.start[None], np.float32)
-        state = State(start, np.zeros_like(start))
-        met = self._collisions(sewn)
-        return MovingCloth.begin(sewn.cloth, self._solver, self.step, start=state, collisions=met)
-
-    def pins(self, sewn: SewnCloth) -> PinPath | None:
-        """The path of the pins of a cloth."""
-        return None if self.wearer is None else sewn.pin_path(self.wearer.poses)
+    def drape(self, sewn: SewnCloth) -> Drape:
+        """A cloth in the wind, in single precision."""
+        drape = super().drape(sewn)
+        start = drape.start.positions.astype(np.float32)
+        return replace(drape, start=State(start, np.zeros_like(start)))
 
     def first_scene(self) -> Scene:
         """The scene at the start, with a camera that frames cloth in a light wind."""
@@ -140,14 +136,14 @@ def live_garment(played: PlayedGarment, lanes: int | None = None) -> list[LivePa
 def _panel(
     played: PlayedGarment, staging: Staging, sewn: SewnCloth, lanes: int | None
 ) -> LivePanel:
-    moving = played.begun(sewn)
+    drape = played.drape(sewn)
     settings, who = played.settings, played.garment.wearer
     speed = 0.0 if who is None or isinstance(settings.wind, Wind) else who.speed
-    motion = LiveMotion(played.pins(sewn), *played.cycle, (0.0, 0.0, -speed), sewn.cloth.drag)
+    motion = LiveMotion(drape.pins, *played.cycle, (0.0, 0.0, -speed), sewn.cloth.drag)
     wind = played.wind(None)
     free = replace(wind, velocity=wind_of(settings).velocity)
     forces = Gravity(), wind, *settings.forces
-    call = live_call(moving, forces, free, lanes=lanes, motion=motion)
+    call = live_call(drape.begin(played.step), forces, free, lanes=lanes, motion=motion)
     shell = make_live_shell(
         sewn.pieces[0].shell, MIDDLE, sewn.thickness, staging.light, *turning_of(staging.settings)
     )

@@ -5,29 +5,15 @@ each step all of them are one system of contact, as the parts of one cloth are, 
 through another.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from drapery.cloth import Cloth, Collider, Collisions, Force, MovingCloth, PinPath, State, sew
+from drapery.cloth import Cloth, Collider, Collisions, State, sew
 from drapery.cloth.bending import NO_BENDING
 from drapery.cloth.collisions import contact_stage
 from drapery.garments.assembly import BonePose, SewnCloth
-from drapery.mesh import Array
-
-
-@dataclass(frozen=True, eq=False)
-class WornCloth:
-    """A cloth that moves. moving: at the present moment. forces: on it. pins: their path."""
-
-    moving: MovingCloth
-    forces: tuple[Force, ...]
-    pins: PinPath
-
-    def advanced(self) -> MovingCloth:
-        """The cloth one time step later, without contact with others."""
-        return self.moving.advance(self.forces, 1, self.pins)
 
 
 def meet_each_other(cloths: Sequence[SewnCloth]) -> list[int]:
@@ -45,35 +31,14 @@ def common_bones(cloths: Sequence[SewnCloth], bones: Sequence[str]) -> tuple[str
     return tuple(bone for bone in bones if all(bone in each for each in named))
 
 
-def layered_motion(
-    sewn: Sequence[SewnCloth],
-    worn: Sequence[WornCloth],
-    colliders: Sequence[Collider],
-    body: Callable[[float], BonePose],
-    every: int,
-) -> Iterator[list[Array]]:
-    """The positions of all cloths [m], each [N, 3], at the start and after every `every` steps.
-
-    colliders: boxes and planes that stop all of them. body: the pose of the wearer's body at a time
-    [s]. Raises OptionError.
-    """
-    resolve = joint_contact(sewn, colliders, body)
-    while True:
-        yield [each.moving.state.positions[0] for each in worn]
-        for _ in range(every):
-            after = [each.advanced() for each in worn]
-            states = resolve([each.moving.state for each in worn], [each.state for each in after])
-            worn = [
-                replace(each, moving=replace(moved, state=state))
-                for each, moved, state in zip(worn, after, states, strict=True)
-            ]
-
-
 def joint_contact(
     sewn: Sequence[SewnCloth], colliders: Sequence[Collider], body: Callable[[float], BonePose]
 ) -> Callable[[Sequence[State], Sequence[State]], list[State]]:
-    """The stage of contact between cloths after each step: from their states before and after it
-    to those without contact. Parameters as in `layered_motion`. Raises OptionError."""
+    """The contact of cloths after each step, from their states before and after it; see `Meeting`.
+
+    colliders: boxes and planes that stop all of them.
+    body: the pose of the wearer's body at a time [s]. Raises OptionError.
+    """
     thick = sorted(each.thickness for each in sewn)
     apart = (thick[-2] + thick[-1]) / 2
     met = Collisions(colliders, min(each.distance for each in sewn), apart=apart)

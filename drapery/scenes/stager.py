@@ -10,7 +10,6 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import islice
 
 import numpy as np
 
@@ -30,7 +29,6 @@ from drapery.cloth import (
     State,
     Wind,
     grid,
-    simulate,
 )
 from drapery.cloth.gathering import fold_count, gathered_state
 from drapery.cloth.pins import PinName
@@ -38,6 +36,7 @@ from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Model, Scene
 from drapery.render.vectors import unit
+from drapery.scenes.recording import Drape, Schedule, record
 from drapery.scenes.staging import Staging
 from drapery.settings import Settings
 from drapery.style.body import Body, Panel, Solid
@@ -48,10 +47,6 @@ from drapery.styles.grids import grid_shell
 
 STEP = 1.0 / 60.0
 """The longest time step of a picture, and the time step of live cloth [s]."""
-SETTLING = 8.0
-"""The cloth of a loop moves at least this long before it is recorded [s]."""
-FADE = 1.5
-"""The end of a loop fades so long into the motion that leads to its start [s]."""
 WIND_AXIS = (0.35, 0.0, 1.0)
 """Where the wind blows to unless a direction is given: to the front and a little to the right."""
 ENDLESS = 1e3
@@ -287,15 +282,11 @@ def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
 
     design: None for a cape or elytra. Raises OptionError or PackError.
     """
-    body, steps = body_of(design, packs, settings), math.ceil(settings.time / STEP)
+    body = body_of(design, packs, settings)
     staged = StagedBody(body, settings)
     if settings.pose == "cloth":
-        dt = settings.time / steps if steps else STEP
-        at = Moments(dt, steps or 1, min(steps, 1), 1)
-        moments = [
-            _recorded(spec, settings, at)[0].positions[:1] for spec in _specs(body, settings)
-        ]
-        meshes = staged.soft([motion[0] for motion in staged.moved(moments)])
+        motions = staged.moved(_recorded(body, settings, Schedule.still(settings.time, STEP)))
+        meshes = staged.soft([motion[0] for motion in motions])
     else:
         meshes = staged.stiff([_phase(panel, settings.time) for panel in body.panels])
     return next(staged.scenes([meshes], [settings.time]))
@@ -312,8 +303,7 @@ def loop(
     body = body_of(design, packs, settings)
     staged, frames = StagedBody(body, settings), range(count)
     if settings.pose == "cloth":
-        specs = _specs(body, settings)
-        motions = staged.moved([_periodic(spec, settings, count, fps) for spec in specs])
+        motions = staged.moved(_recorded(body, settings, Schedule.loop(count, fps, STEP)))
         moments = [staged.soft([motion[frame] for motion in motions]) for frame in frames]
     else:
         # A whole number of the game's sways fills the loop.
@@ -407,67 +397,34 @@ def in_lee(wind: Wind) -> Wind:
     return replace(wind, velocity=(x, y, LEE * z))
 
 
-@dataclass(frozen=True)
-class Moments:
-    """Which moments of a motion from rest are recorded: `count` from number `first` on.
-
-    dt: the time step [s]. every: time steps between two moments. period: of the wind [s].
-    """
-
-    dt: float
-    every: int
-    first: int
-    count: int
-    period: float | None = None
+def drape_of(spec: ClothSpec, settings: Settings) -> Drape:
+    """The cloth of a spec in the wind of the settings. Raises OptionError."""
+    cloth = spec.make_cloth()
+    return Drape(
+        cloth,
+        spec.hang(cloth),
+        spec.make_solver(),
+        lambda period: forces_of(settings, wind_of(settings, period)),
+        spec.make_collisions(),
+    )
 
 
-def _record(spec: ClothSpec, forces: Sequence[Force], at: Moments) -> tuple[State, ...]:
-    """The cloth at each of the moments."""
-    cloth, method = spec.make_cloth(), spec.make_solver()
-    start, met = spec.hang(cloth), spec.make_collisions()
-    states = simulate(cloth, method, forces, at.dt, start=start, every=at.every, collisions=met)
-    return tuple(islice(states, at.first, at.first + at.count))
-
-
-def _recorded(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, ...]:
-    """The same, from a cache if the settings hold only names and numbers."""
-    size = at.count * math.prod(spec.shape) * 3 * np.dtype(float).itemsize
-    named = isinstance(spec.solver, str) and not isinstance(spec.fabric, Fabric)
+def _recorded(body: Body, settings: Settings, at: Schedule) -> list[Array]:
+    """The cloth of each panel at the moments of a schedule [m], each [F, N, 3]; see `record`."""
+    specs = tuple(_specs(body, settings))
+    particles = sum(math.prod(spec.shape) for spec in specs)
+    size = len(at.moments) * particles * 3 * np.dtype(float).itemsize
+    named = isinstance(settings.solver, str) and not isinstance(settings.fabric, Fabric)
     if named and not isinstance(settings.wind, Wind) and not settings.forces and size <= MAX_CACHED:
         # Pictures that differ in other options share a motion.
-        return _cached(spec, settings.only("motion", "wind"), at)
-    return _record(spec, forces_of(settings, wind_of(settings, at.period)), at)
+        return [*_cached(specs, settings.only("motion", "wind"), at)]
+    return record([drape_of(spec, settings) for spec in specs], at)
 
 
 @lru_cache(maxsize=16)
-def _cached(spec: ClothSpec, settings: Settings, at: Moments) -> tuple[State, ...]:
+def _cached(specs: tuple[ClothSpec, ...], settings: Settings, at: Schedule) -> tuple[Array, ...]:
     # Banners of one batch often move alike, because a design does not change the cloth.
-    moments = _record(spec, forces_of(settings, wind_of(settings, at.period)), at)
-    for moment in moments:
-        moment.positions.flags.writeable = False
-    return moments
-
-
-def _periodic(spec: ClothSpec, settings: Settings, count: int, fps: float) -> Array:
-    """One period of the cloth's motion in a periodic wind [m], shape [count, N, 3]."""
-    period = count / fps
-    steps = math.ceil(1 / (fps * STEP))
-    before = min(count, math.ceil(FADE * fps))
-    first = math.ceil(SETTLING / period) * count - before
-    at = Moments(1 / (fps * steps), steps, first, before + count, period)
-    moments = _recorded(spec, settings, at)
-    return close_loop(np.stack([moment.positions[0] for moment in moments]), before)
-
-
-def close_loop(motion: Array, before: int) -> Array:
-    """Make the last F moments of a recorded motion [before + F, ...] a seamless loop.
-
-    The wind repeats, so the moments before the loop resemble those at its end, and they lead to its
-    first one: the end of the loop fades into them.
-    """
-    looped = motion[before:].copy()
-    share = np.arange(1, before + 1).reshape(-1, *[1] * (motion.ndim - 1)) / (before + 1)
-    share = share * share * (3 - 2 * share)
-    end = looped[len(looped) - before :]
-    end += share * (motion[:before] - end)
-    return looped
+    motions = record([drape_of(spec, settings) for spec in specs], at)
+    for motion in motions:
+        motion.flags.writeable = False
+    return tuple(motions)

@@ -1,0 +1,161 @@
+"""How the motion of cloth is recorded for pictures: at which moments, and where it is at each."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+
+import numpy as np
+
+from drapery.cloth import Cloth, Collisions, Force, MovingCloth, PinPath, Solver, State
+from drapery.mesh import Array
+
+SETTLING = 8.0
+"""The cloth of a loop moves at least this long before it is recorded [s]."""
+FADE = 1.5
+"""The end of a loop fades so long into the motion that leads to its start [s]."""
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """The moments of a motion from rest that pictures show.
+
+    dt: the time step [s].
+    every: time steps from one moment to the next.
+    moments: the numbers of those that are recorded; 0 is the start.
+    times: when the pictures are [s], one a picture.
+    period: after which wind and textures repeat [s], of a loop.
+    fade: so many moments are recorded before a loop, whose end fades into them.
+    """
+
+    dt: float
+    every: int
+    moments: Sequence[int]
+    times: tuple[float, ...]
+    period: float | None = None
+    fade: int = 0
+
+    @staticmethod
+    def still(time: float, step: float, tolerance: float = 0.0) -> "Schedule":
+        """One picture, exactly at a time [s].
+
+        step: the longest time step [s]. tolerance: the share of a step by which steps may be
+        longer, so that no step is added where a time is that of whole steps but for rounding.
+        """
+        steps = math.ceil(time / step - tolerance)
+        dt = time / steps if steps else step
+        return Schedule(dt, max(steps, 1), (min(steps, 1),), (time,))
+
+    @staticmethod
+    def loop(count: int, fps: float, step: float, tolerance: float = 0.0) -> "Schedule":
+        """`count` pictures of a loop, when the cloth has settled. step, tolerance: see `still`."""
+        period = count / fps
+        steps = math.ceil(1 / (fps * step) - tolerance)
+        fade = min(count, math.ceil(FADE * fps))
+        first = math.ceil(SETTLING / period) * count
+        times = tuple((first + frame) / fps for frame in range(count))
+        moments = range(first - fade, first + count)
+        return Schedule(1 / (fps * steps), steps, moments, times, period, fade)
+
+    @staticmethod
+    def at(times: Sequence[float], step: float) -> "Schedule":
+        """Pictures at some times of one motion [s], its cloth at the nearest time steps [s]."""
+        return Schedule(step, 1, tuple(round(time / step) for time in times), tuple(times))
+
+
+@dataclass(frozen=True, eq=False)
+class Drape:
+    """A cloth before its first step, and all that acts on it.
+
+    start: its state then. forces: those of a wind that repeats after a period [s], or does not.
+    collisions: what it meets beside other cloths. pins: the path of its pins; None if they rest.
+    """
+
+    cloth: Cloth
+    start: State
+    solver: Solver
+    forces: Callable[[float | None], tuple[Force, ...]]
+    collisions: Collisions | None = None
+    pins: PinPath | None = None
+
+    def begin(self, dt: float) -> MovingCloth:
+        """The cloth, to be moved by time steps dt [s]. Raises OptionError."""
+        met = self.collisions
+        return MovingCloth.begin(self.cloth, self.solver, dt, start=self.start, collisions=met)
+
+
+@dataclass(frozen=True, eq=False)
+class Meeting:
+    """Cloths that meet each other. numbers: which ones.
+
+    resolve: their contact after each time step, from their states before and after it.
+    """
+
+    numbers: Sequence[int]
+    resolve: Callable[[Sequence[State], Sequence[State]], list[State]]
+
+
+def record(
+    drapes: Sequence[Drape],
+    at: Schedule,
+    meeting: Meeting | None = None,
+    on_moment: Callable[[], object] | None = None,
+) -> list[Array]:
+    """Where each cloth is at the moments of a schedule [m], each [F, N, 3].
+
+    on_moment: called at each moment from the start on; it may raise to end the simulation.
+    Raises OptionError.
+    """
+    if not drapes:
+        return []
+    wanted, places = frozenset(at.moments), {}
+    motion = _motion(drapes, at, meeting)
+    for number, states in enumerate(islice(motion, max(wanted) + 1)):
+        if on_moment is not None:
+            on_moment()
+        if number in wanted:
+            places[number] = [state.positions[0] for state in states]
+    motions = zip(*(places[number] for number in at.moments), strict=True)
+    found = [np.stack(motion) for motion in motions]
+    return [close_loop(motion, at.fade) for motion in found] if at.fade else found
+
+
+def _motion(
+    drapes: Sequence[Drape], at: Schedule, meeting: Meeting | None
+) -> Iterator[list[State]]:
+    """The states of all cloths at each moment, those that meet each other step by step."""
+    together = [] if meeting is None else [*meeting.numbers]
+    alone = [number for number in range(len(drapes)) if number not in together]
+    forces = [each.forces(at.period) for each in drapes]
+    moving = [each.begin(at.dt) for each in drapes]
+
+    def advance(numbers: Sequence[int], steps: int) -> None:
+        for number in numbers:
+            pins = drapes[number].pins
+            moving[number] = moving[number].advance(forces[number], steps, pins)
+
+    while True:
+        yield [each.state for each in moving]
+        advance(alone, at.every)
+        if meeting is None:
+            continue
+        for _ in range(at.every):
+            before = [moving[number].state for number in together]
+            advance(together, 1)
+            after = [moving[number].state for number in together]
+            for number, state in zip(together, meeting.resolve(before, after), strict=True):
+                moving[number] = replace(moving[number], state=state)
+
+
+def close_loop(motion: Array, before: int) -> Array:
+    """Make the last F moments of a recorded motion [before + F, ...] a seamless loop.
+
+    The wind repeats, so the moments before the loop resemble those at its end, and they lead to its
+    first one: the end of the loop fades into them.
+    """
+    looped = motion[before:].copy()
+    share = np.arange(1, before + 1).reshape(-1, *[1] * (motion.ndim - 1)) / (before + 1)
+    share = share * share * (3 - 2 * share)
+    end = looped[len(looped) - before :]
+    end += share * (motion[:before] - end)
+    return looped
