@@ -40,7 +40,7 @@ from drapery.packs import open_packs
 from drapery.render import Frame
 from drapery.render.contact import contact_table
 from drapery.render.soft import draw_scene
-from drapery.scenes.stager import still
+from drapery.scenes import still
 from drapery.settings import Settings
 
 RADIUS, SUPPORT = 0.15, 0.09

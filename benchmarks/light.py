@@ -16,7 +16,7 @@ from drapery.packs import open_packs
 from drapery.render.light import GAME_LIGHT
 from drapery.render.scene import Scene
 from drapery.render.soft import draw_scene
-from drapery.scenes.stager import still
+from drapery.scenes import still
 from drapery.settings import Settings
 
 DESIGN = "white creeper:lime border:black"

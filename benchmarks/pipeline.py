@@ -21,7 +21,7 @@ from benchmarks.quick import add_quick
 from drapery import Banner, Settings, draw
 from drapery.garments import Garment, find_garment
 from drapery.packs import open_packs
-from drapery.scenes import garment_still
+from drapery.scenes import still
 from drapery.settings import Options
 
 ROOT = Path(__file__).parents[1]
@@ -83,9 +83,9 @@ def main() -> None:
             calls = warm_draw(subject, options, Path(folder))
             print(f"{name}: {len(ours(calls))} modules are entered (goal {MODULES[name]})")
             print(f"{name}: {calls.total():,} calls of Python functions (goal {CALLS[name]:,})")
-    packs, still = open_packs(()), Settings(time=time)
-    garment_still(find_garment("cape"), packs, replace(still, seed=1))
-    made = ours(calls_of(lambda: garment_still(find_garment("cape"), packs, still)))
+    packs, settings = open_packs(()), Settings(time=time)
+    still(find_garment("cape"), packs, replace(settings, seed=1))
+    made = ours(calls_of(lambda: still(find_garment("cape"), packs, settings)))
     print(f"a cape's still of {time:g} s: {made.total():,} calls of ours (goal {STILL:,}), most in")
     for file, count in made.most_common(5):
         print(f"  {file}: {count:,}")

@@ -23,7 +23,7 @@ from drapery.garments import PlayerSettings, player_of
 from drapery.packs import open_packs
 from drapery.pictures import draw_scenes
 from drapery.render import Frame, save_animation, save_frame
-from drapery.scenes.dressing import Dressed, garment_loop
+from drapery.scenes import Dressed, loop
 from drapery.testing.garment_check import deepest
 
 COUNT = 100
@@ -68,7 +68,7 @@ def busts(view: str, count: int) -> None:
             )
 
 
-def loop(view: str, frames: int) -> None:
+def walking_loop(view: str, frames: int) -> None:
     """Print what a walking loop with a cape takes."""
     player = player_of(PlayerSettings(wear=("cape",)))
     packs = open_packs(())
@@ -76,7 +76,7 @@ def loop(view: str, frames: int) -> None:
     with TemporaryDirectory() as folder:
         for words in ("first run, with imports", "warm"):
             times = [time.process_time()]
-            scenes = list(garment_loop(player, packs, settings, frames, 20.0))
+            scenes = list(loop(player, packs, settings, frames, 20.0))
             times.append(time.process_time())
             drawn_frames = list(draw_scenes(scenes, packs, settings, loop=True))
             times.append(time.process_time())
@@ -121,7 +121,7 @@ def main() -> None:
             busts(view, count)
     if what in (None, "loop"):
         for view in ("back", "hero"):
-            loop(view, frames)
+            walking_loop(view, frames)
     if what in (None, "contact"):
         for name in ("cape", "elytra", "skirt"):
             contact(name, frames)

@@ -35,8 +35,10 @@ def draw(
     Raises DesignError if `banner` is something else, OptionError, PackError or BackendError.
     """
     design, chosen = _checked(banner, settings, options, "still")
+    from drapery.scenes.subjects import still
+
     packs = open_packs(chosen.packs, format=chosen.format)
-    (frame,) = draw_scenes([_still(design, packs, chosen)], packs, chosen)
+    (frame,) = draw_scenes([still(design, packs, chosen)], packs, chosen)
     return frame
 
 
@@ -71,9 +73,11 @@ def iter_frames(
     All arguments are checked, and all packs opened, before this returns.
     Raises the errors of `animate`.
     """
+    from drapery.scenes.subjects import loop
+
     design, chosen = _checked(banner, settings, options, "loop")
     packs = open_packs(chosen.packs, format=chosen.format)
-    scenes = _loop(design, packs, chosen, seconds, fps)
+    scenes = loop(design, packs, chosen, frame_count(seconds, fps), fps)
     return draw_scenes(scenes, packs, chosen, loop=True)
 
 
@@ -97,6 +101,7 @@ def save_model(
     """
     from drapery.render.encode import check_target
     from drapery.render.export import save_model as save_scenes
+    from drapery.scenes.subjects import loop, still
 
     design, chosen = _checked(banner, settings, options, "model")
     chosen = replace(chosen, ground="none")
@@ -104,10 +109,10 @@ def save_model(
     packs = open_packs(chosen.packs, format=chosen.format)
     if moves:
         tick, total = progress or (lambda done, total: None), frame_count(seconds, fps)
-        scenes = _loop(design, packs, chosen, seconds, fps, lambda: tick(0, total))
+        scenes = loop(design, packs, chosen, total, fps, lambda: tick(0, total))
         save_scenes(_counted(scenes, total, tick), path, fps=fps)
     else:
-        save_scenes(_still(design, packs, chosen), path)
+        save_scenes(still(design, packs, chosen), path)
     _warn_of(packs)
 
 
@@ -187,40 +192,12 @@ def _drawn(frames: Iterable[Frame], packs: Packs, settings: Settings) -> Iterato
             _warn_of(packs)
 
 
-def _still(design: "Banner | Garment | None", packs: Packs, settings: Settings) -> Scene:
-    if design is None or isinstance(design, Banner):
-        from drapery.scenes.stager import still
-
-        return still(design, packs, settings)
-    from drapery.scenes.dressing import garment_still
-
-    return garment_still(design, packs, settings)
-
-
 def _counted(
     scenes: Iterable[Scene], total: int, progress: Callable[[int, int], object]
 ) -> Iterator[Scene]:
     for number, scene in enumerate(scenes, 1):
         yield scene
         progress(number, total)
-
-
-def _loop(
-    design: "Banner | Garment | None",
-    packs: Packs,
-    settings: Settings,
-    seconds: float,
-    fps: float,
-    on_moment: Callable[[], object] | None = None,
-) -> Iterator[Scene]:
-    count = frame_count(seconds, fps)
-    if design is None or isinstance(design, Banner):
-        from drapery.scenes.stager import loop
-
-        return loop(design, packs, settings, count, fps)
-    from drapery.scenes.dressing import garment_loop
-
-    return garment_loop(design, packs, settings, count, fps, on_moment)
 
 
 def _checked(

@@ -15,7 +15,7 @@ from drapery.render.camera import Camera
 from drapery.render.light import UNLIT
 from drapery.render.scene import Scene
 from drapery.render.soft import draw_scene
-from drapery.scenes.stager import still
+from drapery.scenes import still
 from drapery.settings import Kind, Settings
 from drapery.style.block import turn
 from drapery.style.extrusion import THINNEST

@@ -16,7 +16,7 @@ from drapery.mesh import Array
 from drapery.render.backends import backend
 from drapery.render.frame import Pixels
 from drapery.render.views import VIEWS
-from drapery.scenes.stager import still, wind_of
+from drapery.scenes import still, wind_of
 from drapery.settings import Settings
 
 BANNER = Banner.parse("white creeper:lime border:black")

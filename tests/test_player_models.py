@@ -15,8 +15,7 @@ from drapery.garments import dressed_player, make_wearer
 from drapery.packs import open_packs
 from drapery.render.export import save_model as save_scenes
 from drapery.render.export.gltf import quaternions
-from drapery.scenes import Dressed
-from drapery.scenes.dressing import garment_loop, garment_moments
+from drapery.scenes import Dressed, loop, moments
 
 TYPES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 KINDS = {5126: np.float32, 5125: np.uint32, 5121: np.uint8}
@@ -87,7 +86,7 @@ def test_a_skeleton_moves_the_body_as_the_frames_do(tmp_path: Path) -> None:
     )
     settings = player.settings(rotation=3, ground="none")
     times = (0.0, 0.05, 0.1, 0.15)
-    scenes = list(garment_moments(player, open_packs(()), settings, times))
+    scenes = list(moments(player, open_packs(()), settings, times))
     save_scenes(scenes, tmp_path / "p.glb")
     glb = Glb(tmp_path / "p.glb")
     body = [number for number, m in enumerate(scenes[0].models) if hasattr(m, "rig")]
@@ -141,7 +140,7 @@ def test_quaternions_of_rotations_are_unit_and_continuous() -> None:
 def test_frames_of_a_loop_share_what_does_not_change() -> None:
     player = dressed_player(make_wearer(motion="wave"))
     packs = open_packs(())
-    first, second = garment_loop(player, packs, player.settings(ground="none"), 2, 4.0)
+    first, second = loop(player, packs, player.settings(ground="none"), 2, 4.0)
     for name in ("triangles", "uvs"):
         one, other = (getattr(scene.models[0].mesh, name) for scene in (first, second))
         assert one is other

@@ -6,7 +6,7 @@ import pytest
 from drapery import Banner, animate
 from drapery.banner.packs import open_packs
 from drapery.mesh import Array
-from drapery.scenes.stager import loop
+from drapery.scenes import loop
 from drapery.settings import Settings
 
 

@@ -11,7 +11,7 @@ from drapery import Banner
 from drapery.banner.packs import open_packs
 from drapery.cloth import FABRICS, Cloth, Fabric, SolverXPBD, State, Wind, grid
 from drapery.mesh import Array
-from drapery.scenes.stager import LiveBody, loop, still, wind_of
+from drapery.scenes import LiveBody, loop, still, wind_of
 from drapery.settings import FabricName, Settings
 from drapery.style.kinds import body_of
 

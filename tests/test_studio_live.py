@@ -19,7 +19,7 @@ from drapery.errors import OptionError
 from drapery.render.drawlist import draw_list
 from drapery.render.light import GAME_LIGHT
 from drapery.render.soft import draw_scene
-from drapery.scenes.stager import STEP, ClothSpec, still, wind_of
+from drapery.scenes import STEP, ClothSpec, still, wind_of
 from drapery.settings import OPTIONS, Settings
 from drapery.studio.chosen_scene import SceneChoice
 from drapery.studio.live import Live, Ray

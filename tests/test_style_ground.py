@@ -14,7 +14,7 @@ from drapery.packs import MemoryPack
 from drapery.pictures import draw
 from drapery.render import backend
 from drapery.render.light import GAME_LIGHT, STUDIO_LIGHT
-from drapery.scenes.stager import still
+from drapery.scenes import still
 from drapery.settings import Settings
 
 HALVES = Banner("white", (Layer("half_vertical", "red"),))

@@ -21,12 +21,13 @@ from drapery.lazy import lazy_names
 if TYPE_CHECKING:
     from drapery.scenes.catalogue import Clip, SceneEntry, find_scene, scene_names
     from drapery.scenes.drawing import scene_frames
-    from drapery.scenes.dressing import Dressed, garment_loop, garment_moments, garment_still
+    from drapery.scenes.dressing import Dressed
     from drapery.scenes.exploded import exploded_view
     from drapery.scenes.garment_playing import PlayedGarment, live_garment, played_garment
     from drapery.scenes.parameters import SceneParameters
     from drapery.scenes.picture_grid import Picture, PictureGrid
     from drapery.scenes.playing import LiveKernel, LivePanel, live_panels
+    from drapery.scenes.recording import Schedule
     from drapery.scenes.stager import (
         STEP,
         WIND_AXIS,
@@ -36,11 +37,10 @@ if TYPE_CHECKING:
         cloth_at_rest,
         cloth_spec,
         flow,
-        loop,
-        still,
         wind_of,
     )
     from drapery.scenes.staging import Staging, floor_under
+    from drapery.scenes.subjects import StagedSubject, loop, moments, stage, still, subject_of
 
 __all__ = [
     "STEP",
@@ -56,7 +56,9 @@ __all__ = [
     "PlayedGarment",
     "SceneEntry",
     "SceneParameters",
+    "Schedule",
     "StagedBody",
+    "StagedSubject",
     "Staging",
     "cloth_at_rest",
     "cloth_spec",
@@ -64,16 +66,16 @@ __all__ = [
     "find_scene",
     "floor_under",
     "flow",
-    "garment_loop",
-    "garment_moments",
-    "garment_still",
     "live_garment",
     "live_panels",
     "loop",
+    "moments",
     "played_garment",
     "scene_frames",
     "scene_names",
+    "stage",
     "still",
+    "subject_of",
     "wind_of",
 ]
 
@@ -82,12 +84,14 @@ __getattr__, __dir__ = lazy_names(
     {
         "scenes.catalogue": ("Clip", "SceneEntry", "find_scene", "scene_names"),
         "scenes.drawing": ("scene_frames",),
-        "scenes.dressing": ("Dressed", "garment_loop", "garment_moments", "garment_still"),
+        "scenes.dressing": ("Dressed",),
         "scenes.exploded": ("exploded_view",),
         "scenes.garment_playing": ("PlayedGarment", "live_garment", "played_garment"),
         "scenes.parameters": ("SceneParameters",),
         "scenes.picture_grid": ("Picture", "PictureGrid"),
         "scenes.playing": ("LiveKernel", "LivePanel", "live_panels"),
+        "scenes.recording": ("Schedule",),
+        "scenes.subjects": ("StagedSubject", "loop", "moments", "stage", "still", "subject_of"),
         "scenes.stager": (
             "STEP",
             "WIND_AXIS",
@@ -97,8 +101,6 @@ __getattr__, __dir__ = lazy_names(
             "cloth_at_rest",
             "cloth_spec",
             "flow",
-            "loop",
-            "still",
             "wind_of",
         ),
         "scenes.staging": ("Staging", "floor_under"),

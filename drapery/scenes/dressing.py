@@ -58,65 +58,23 @@ BEHIND_ROUNDS = 2
 EDGE = 0.2
 """A garment may hang over the edge of its ground by this length [m]."""
 ROUNDING = 1e-9
-"""The share of a time step by which steps may be longer, see `Schedule`."""
+"""The share of a time step by which steps may be longer, see `Schedule.still`."""
 FRICTION = 0.6
 """Of cloth on the ground; on all else that of its fabric counts."""
-
-
-def garment_still(garment: Garment, packs: Packs, settings: Settings) -> Scene:
-    """The scene after a garment has been in the wind for `settings.time` seconds.
-
-    Raises OptionError or PackError.
-    """
-    dressed = Dressed(garment, packs, settings)
-    at = Schedule.still(settings.time, dressed.step, ROUNDING)
-    return next(dressed.scenes(dressed.record(at), at.times))
-
-
-def garment_moments(
-    garment: Garment, packs: Packs, settings: Settings, times: Sequence[float]
-) -> Iterator[Scene]:
-    """A scene at each of some times of one motion [s], rounded to its time steps.
-
-    Raises OptionError or PackError.
-    """
-    dressed = Dressed(garment, packs, settings)
-    at = Schedule.at(times, dressed.step)
-    return dressed.scenes(dressed.record(at), times)
-
-
-def garment_loop(
-    garment: Garment,
-    packs: Packs,
-    settings: Settings,
-    count: int,
-    fps: float,
-    on_moment: Callable[[], object] | None = None,
-) -> Iterator[Scene]:
-    """`count` scenes of a seamless loop of a garment in a wind that repeats after it.
-
-    on_moment: called after each simulated moment; it may raise to end the simulation.
-    Raises OptionError or PackError.
-    """
-    dressed = Dressed(garment, packs, settings, count / fps, on_moment)
-    at = Schedule.loop(count, fps, dressed.step, ROUNDING)
-    # The figure is drawn as it is after it has settled.
-    return dressed.scenes(dressed.record(at), at.times)
 
 
 @dataclass(frozen=True, eq=False)
 class Dressed:
     """A garment with its wearer, poles and blocks, ready to be simulated and drawn.
 
-    period: of a loop [s]; None for a still picture. on_moment: called after each simulated moment;
-    what it raises ends the simulation. Its methods raise OptionError and PackError.
+    period: of a loop [s]; None for other pictures.
+    Its methods raise OptionError and PackError.
     """
 
     garment: Garment
     packs: Packs
     settings: Settings
     period: float | None = None
-    on_moment: Callable[[], object] | None = None
 
     def check(self) -> None:
         """Raise OptionError or PackError if something cannot be drawn: an edge, file or block."""
@@ -176,6 +134,11 @@ class Dressed:
         """The longest time step [s]."""
         return STEP if self.wearer is None else WORN_STEP
 
+    @property
+    def tolerance(self) -> float:
+        """The share of a step by which steps may be longer, see `Schedule.still`."""
+        return ROUNDING
+
     def colliders(self, sewn: SewnCloth, *others: SewnCloth) -> tuple[Collider, ...]:
         """What a cloth, and others that meet it, are stopped by, in the garment's own frame."""
         friction, texel = self.garment.fabric.friction, self.garment.texel
@@ -220,10 +183,15 @@ class Dressed:
             None if self.wearer is None else sewn.pin_path(self.wearer.poses),
         )
 
-    def record(self, at: Schedule) -> list[Array]:
-        """The positions of each cloth at the moments of a schedule [m], each [F, N, 3]."""
+    def record(
+        self, at: Schedule, on_moment: Callable[[], object] | None = None
+    ) -> Sequence[Array]:
+        """Where each cloth is at the moments of a schedule [m], each [F, N, 3].
+
+        on_moment: see `recording.record`.
+        """
         drapes = [self.drape(sewn) for sewn in self.cloths]
-        return record(drapes, at, self._meeting(), self.on_moment)
+        return record(drapes, at, self._meeting(), on_moment)
 
     def _meeting(self) -> Meeting | None:
         """The contact of cloths that meet each other; None if none do."""
@@ -244,24 +212,24 @@ class Dressed:
         apart = sewn.thickness if collisions == "all" else None
         return Collisions(self.colliders(sewn), sewn.distance, order=3, apart=apart)
 
-    def sheets(self, times: Sequence[float]) -> list[Array]:
+    def sheets(self, times: Sequence[float]) -> Sequence[Array]:
         """The positions of each cloth at some times of one motion from rest [m], each [F, N, 3].
 
         times: [s], rounded to time steps. Raises OptionError.
         """
         return self.record(Schedule.at(times, self.step))
 
-    def scenes(self, sheets: Sequence[Array], times: Sequence[float]) -> Iterator[Scene]:
-        """A scene of each moment. sheets: of each cloth at all moments [m], each [F, N, 3].
+    def scenes(self, motions: Sequence[Array], at: Schedule) -> Iterator[Scene]:
+        """The scene of each picture of a schedule; the figure of a loop is as it is after settling.
 
-        One camera frames all of them; a turntable goes once around them.
+        motions: where each cloth is in them [m], each [F, N, 3].
         """
         staging = Staging(self.settings, self._ground())
         moments = [
             [self._placed(staging, model) for model in models]
-            for models in self._moments(staging, sheets, times)
+            for models in self._moments(staging, motions, at.times)
         ]
-        framed = [self._placed(staging, model) for time in times for model in self._framed(time)]
+        framed = [self._placed(staging, model) for time in at.times for model in self._framed(time)]
         meshes = [[model.mesh for model in models] for models in moments]
         return staging.scenes(meshes, moments, [model.mesh.positions for model in framed])
 

@@ -26,7 +26,7 @@ from drapery.scenes.dressing import MIDDLE, WORN_STEP, Dressed
 from drapery.scenes.layered import meet_each_other
 from drapery.scenes.player_motion import RAMP, STRIDE, Poses
 from drapery.scenes.playing import LiveKernel, LivePanel, make_live_panel, turning_of
-from drapery.scenes.recording import Drape
+from drapery.scenes.recording import Drape, Schedule
 from drapery.scenes.stager import wind_of
 from drapery.scenes.staging import Staging
 from drapery.scenes.wearers import Wearer
@@ -71,7 +71,7 @@ class PlayedGarment(Dressed):
     def first_scene(self) -> Scene:
         """The scene at the start, with a camera that frames cloth in a light wind."""
         sheets = [sewn.start + SWINGS[:, None] for sewn in self.cloths]
-        return next(self.scenes(sheets, [0.0] * len(SWINGS)))
+        return next(self.scenes(sheets, Schedule.at([0.0] * len(SWINGS), self.step)))
 
     def texture_areas(self) -> tuple[list[int], list[int]]:
         """Which part of a skin its wearer shows, and which part of a cape's texture its first cloth

@@ -19,10 +19,10 @@ from drapery.cloth.live_wind import aim
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.soft.live_picture import draw_live, make_live_picture
+from drapery.scenes.recording import Schedule
 from drapery.scenes.stager import (
     LEE,
     STEP,
-    LiveBody,
     StagedBody,
     cloth_at_rest,
     cloth_spec,
@@ -115,15 +115,9 @@ def _pulled(settings: Settings) -> Settings:
 def _with_picture(staged: StagedBody, lanes: int | None) -> LivePanel:
     """The panel with a call that draws its body, with the time steps of `still`."""
     body, settings = staged.body, staged.staging.settings
-    time = settings.time
-    steps = math.ceil(time / STEP)
-    step = time / steps if steps else STEP
-    panel = _live_panel(staged, body.panels[0], lanes, step)
-    spec = cloth_spec(body.panels[0], settings, body.solids)
-    posed = LiveBody(body, settings, [cloth_at_rest(spec, step)])
-    if steps:
-        posed.advance(steps)
-    scene = posed.scene(time)
+    at = Schedule.still(settings.time, STEP)
+    panel = _live_panel(staged, body.panels[0], lanes, at.dt)
+    scene = next(staged.scenes(staged.record(at), at))
     live = make_live_picture(scene, len(scene.models) - 1, SPARE)
     vertices, normals = panel.arrays["vertices"], panel.arrays["normals"]
     draw = LiveKernel("draw", draw_live, (vertices, normals, live))
@@ -132,7 +126,7 @@ def _with_picture(staged: StagedBody, lanes: int | None) -> LivePanel:
         header={
             **panel.header,
             "picture": list(live.size),
-            "steps": steps,
+            "steps": at.every * at.moments[0],
         },
         calls={**panel.calls, "draw": draw},
         arrays={

@@ -24,7 +24,7 @@ class Schedule:
     every: time steps from one moment to the next.
     moments: the numbers of those that are recorded; 0 is the start.
     times: when the pictures are [s], one a picture.
-    period: after which wind and textures repeat [s], of a loop.
+    fps: frames per second of a loop, after which the wind repeats; None for other pictures.
     fade: so many moments are recorded before a loop, whose end fades into them.
     """
 
@@ -32,8 +32,13 @@ class Schedule:
     every: int
     moments: Sequence[int]
     times: tuple[float, ...]
-    period: float | None = None
+    fps: float | None = None
     fade: int = 0
+
+    @property
+    def period(self) -> float | None:
+        """How long a loop is [s]; None for other pictures."""
+        return None if self.fps is None else len(self.times) / self.fps
 
     @staticmethod
     def still(time: float, step: float, tolerance: float = 0.0) -> "Schedule":
@@ -55,7 +60,7 @@ class Schedule:
         first = math.ceil(SETTLING / period) * count
         times = tuple((first + frame) / fps for frame in range(count))
         moments = range(first - fade, first + count)
-        return Schedule(1 / (fps * steps), steps, moments, times, period, fade)
+        return Schedule(1 / (fps * steps), steps, moments, times, fps, fade)
 
     @staticmethod
     def at(times: Sequence[float], step: float) -> "Schedule":

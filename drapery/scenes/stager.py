@@ -13,8 +13,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from drapery.banner.design import Banner
-from drapery.banner.packs import Packs
 from drapery.cloth import (
     FABRICS,
     Box,
@@ -41,7 +39,6 @@ from drapery.scenes.staging import Staging
 from drapery.settings import Settings
 from drapery.style.body import Body, Panel, Solid
 from drapery.style.extrusion import Shell, thicken
-from drapery.style.kinds import body_of
 from drapery.style.sheet import Sheet
 from drapery.styles.grids import grid_shell
 
@@ -163,6 +160,9 @@ class StagedBody:
     Raises OptionError.
     """
 
+    step = STEP
+    tolerance = 0.0
+
     def __init__(
         self,
         body: Body,
@@ -204,15 +204,54 @@ class StagedBody:
         panels = zip(self.body.panels, motions, strict=True)
         return [style.move(self._sheet(panel, motion)).positions for panel, motion in panels]
 
-    def scenes(self, moments: Sequence[Sequence[Mesh]], times: Sequence[float]) -> Iterator[Scene]:
-        """A scene of the meshes of each moment, with the materials of its time [s].
+    def record(
+        self, at: Schedule, on_moment: Callable[[], object] | None = None
+    ) -> Sequence[Array]:
+        """Where the cloth of each panel is at the moments of a schedule [m], each [F, N, 3].
+
+        None where the settings have the game's own stiff pose.
+        on_moment: see `recording.record`. Raises OptionError.
+        """
+        settings = self.staging.settings
+        specs = tuple(_specs(self.body, settings)) if settings.pose == "cloth" else ()
+        particles = sum(math.prod(spec.shape) for spec in specs)
+        size = len(at.moments) * particles * 3 * np.dtype(float).itemsize
+        named = isinstance(settings.solver, str) and not isinstance(settings.fabric, Fabric)
+        named = named and not isinstance(settings.wind, Wind) and not settings.forces
+        if named and on_moment is None and size <= MAX_CACHED:
+            # Pictures that differ in other options share a motion.
+            return _cached(specs, settings.only("motion", "wind"), at)
+        return record([drape_of(spec, settings) for spec in specs], at, on_moment=on_moment)
+
+    def scenes(self, motions: Sequence[Array], at: Schedule) -> Iterator[Scene]:
+        """The scene of each picture of a schedule.
 
         A loop of what does not move is shown from all around.
+        motions: where the cloth of each panel is [m], each [F, N, 3]; none in a stiff pose.
         """
         is_cloth = self.staging.settings.pose == "cloth"
+        if is_cloth:
+            moved = self.moved(motions)
+            moments = [
+                self.soft([each[frame] for each in moved]) for frame, _ in enumerate(at.times)
+            ]
+        else:
+            moments = [self.stiff(phases) for phases in self._phases(at)]
+        times = at.times
+        if at.fps is not None:
+            times = texture_times(self.body.period, len(at.times), at.fps)
         moves = any(is_cloth or panel.sway for panel in self.body.panels)
         models = map(self.models, moments, times)
         return self.staging.scenes(moments, models, around=len(moments) > 1 and not moves)
+
+    def _phases(self, at: Schedule) -> list[list[float]]:
+        """The phase of each panel's own sway in each picture."""
+        panels, count = self.body.panels, len(at.times)
+        if at.period is None:
+            return [[_phase(panel, time) for panel in panels] for time in at.times]
+        # A whole number of the game's sways fills the loop.
+        sways = [max(1, round(_phase(panel, at.period))) for panel in panels]
+        return [[n * frame / count for n in sways] for frame in range(count)]
 
     def _sheet(self, panel: Panel, positions: Array) -> Sheet:
         columns, rows = self.staging.settings.grid
@@ -272,47 +311,8 @@ class LiveBody(StagedBody):
             return self.soft([cloth.state.positions[0] for cloth in self.cloths])
         return self.stiff([_phase(panel, self.time) for panel in self.body.panels])
 
-    def scene(self, time: float) -> Scene:
-        """The scene of this moment, with the materials of a time [s]: see `still`."""
-        return next(self.scenes([self.meshes()], [time]))
 
-
-def still(design: Banner | None, packs: Packs, settings: Settings) -> Scene:
-    """The scene after the cloth has been in the wind for `settings.time` seconds.
-
-    design: None for a cape or elytra. Raises OptionError or PackError.
-    """
-    body = body_of(design, packs, settings)
-    staged = StagedBody(body, settings)
-    if settings.pose == "cloth":
-        motions = staged.moved(_recorded(body, settings, Schedule.still(settings.time, STEP)))
-        meshes = staged.soft([motion[0] for motion in motions])
-    else:
-        meshes = staged.stiff([_phase(panel, settings.time) for panel in body.panels])
-    return next(staged.scenes([meshes], [settings.time]))
-
-
-def loop(
-    design: Banner | None, packs: Packs, settings: Settings, count: int, fps: float
-) -> Iterator[Scene]:
-    """`count` scenes of a seamless loop: the last is followed by the first.
-
-    The wind repeats after the loop's length, and the cloth has settled into that period. A body
-    that does not move is shown from all around. Raises OptionError or PackError.
-    """
-    body = body_of(design, packs, settings)
-    staged, frames = StagedBody(body, settings), range(count)
-    if settings.pose == "cloth":
-        motions = staged.moved(_recorded(body, settings, Schedule.loop(count, fps, STEP)))
-        moments = [staged.soft([motion[frame] for motion in motions]) for frame in frames]
-    else:
-        # A whole number of the game's sways fills the loop.
-        sways = [max(1, round(_phase(panel, count / fps))) for panel in body.panels]
-        moments = [staged.stiff([n * frame / count for n in sways]) for frame in frames]
-    return staged.scenes(moments, texture_times(body.period, count, fps))
-
-
-def texture_times(period: float, count: int, fps: float) -> list[float]:
+def texture_times(period: float, count: int, fps: float) -> tuple[float, ...]:
     """The time at which each frame of a loop shows its textures [s], shape [count].
 
     A whole number of the textures' periods fills the loop. A period over one and a half loops
@@ -328,7 +328,7 @@ def texture_times(period: float, count: int, fps: float) -> list[float]:
             stacklevel=2,
         )
     pace = periods * period / length if periods else 1.0
-    return [pace * frame / fps for frame in range(count)]
+    return tuple(pace * frame / fps for frame in range(count))
 
 
 def _phase(panel: Panel, time: float) -> float:
@@ -407,18 +407,6 @@ def drape_of(spec: ClothSpec, settings: Settings) -> Drape:
         lambda period: forces_of(settings, wind_of(settings, period)),
         spec.make_collisions(),
     )
-
-
-def _recorded(body: Body, settings: Settings, at: Schedule) -> list[Array]:
-    """The cloth of each panel at the moments of a schedule [m], each [F, N, 3]; see `record`."""
-    specs = tuple(_specs(body, settings))
-    particles = sum(math.prod(spec.shape) for spec in specs)
-    size = len(at.moments) * particles * 3 * np.dtype(float).itemsize
-    named = isinstance(settings.solver, str) and not isinstance(settings.fabric, Fabric)
-    if named and not isinstance(settings.wind, Wind) and not settings.forces and size <= MAX_CACHED:
-        # Pictures that differ in other options share a motion.
-        return [*_cached(specs, settings.only("motion", "wind"), at)]
-    return record([drape_of(spec, settings) for spec in specs], at)
 
 
 @lru_cache(maxsize=16)

@@ -11,8 +11,10 @@ from drapery.banner.packs import open_packs
 from drapery.garments import dressed_player, find_garment, garment_names, make_wearer
 from drapery.pictures import draw, draw_face, draw_scenes
 from drapery.render import Frame, frame_view
-from drapery.scenes.dressing import Dressed, garment_moments
-from drapery.scenes.stager import still
+from drapery.scenes.dressing import Dressed
+from drapery.scenes.recording import Schedule
+from drapery.scenes.subjects import moments as staged_moments
+from drapery.scenes.subjects import still
 from drapery.settings import OPTIONS, ROTATIONS, Settings
 from drapery.sheets.sheet import PictureSheet, SheetCell
 from drapery.style.figure import SKINS
@@ -116,7 +118,7 @@ def garments_sheet(
     for garment in garments:
         own = {} if "background" in garment.picture else {"background": background}
         chosen = garment.settings(**own, **same)
-        scenes = garment_moments(garment, packs, chosen, GARMENT_TIMES)
+        scenes = staged_moments(garment, packs, chosen, GARMENT_TIMES)
         drawn = draw_scenes(scenes, packs, chosen)
         cells += [SheetCell(garment.name, frame.pixels) for frame in drawn]
     across = tuple(f"{time:g} s" for time in GARMENT_TIMES)
@@ -147,12 +149,13 @@ def players_sheet(
             wearer = make_wearer(skin=skin, motion=motion, speed=SPEEDS.get(motion, 0.0))
             player = dressed_player(wearer, wear=wear)
             dressed = Dressed(player, packs, player.settings(background=background, **same))
-            sheets = dressed.sheets([PLAYER_TIME])
+            at = Schedule.at([PLAYER_TIME], dressed.step)
+            places = dressed.record(at)
             for view, rotation in SIDES.items():
                 seen = player.settings(
                     view=view, rotation=rotation, ground="none", background=background, **same
                 )
-                scenes = replace(dressed, settings=seen).scenes(sheets, [PLAYER_TIME])
+                scenes = replace(dressed, settings=seen).scenes(places, at)
                 frame = next(draw_scenes(scenes, packs, seen))
                 rows[skin, view].append(SheetCell(f"{skin} {motion}", frame.pixels))
     cells = tuple(cell for row in rows.values() for cell in row)

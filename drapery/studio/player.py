@@ -14,8 +14,9 @@ from drapery.scenes import (
     Dressed,
     Picture,
     PictureGrid,
+    Schedule,
     find_scene,
-    garment_loop,
+    loop,
 )
 from drapery.studio.chosen_scene import SceneChoice
 from drapery.web.panes import ViewerState, shown_picture
@@ -54,11 +55,12 @@ def garment_show(garment: Garment, packs: Packs, settings: Settings) -> Show:
 
     def play(clip: Clip, on_moment: Callable[[], object]) -> Iterator[Picture]:
         settings = _sized(clip)
-        return garment_loop(garment, packs, settings, clip.count, clip.fps, on_moment)
+        return loop(garment, packs, settings, clip.count, clip.fps, on_moment)
 
     def first(clip: Clip) -> Picture:
         dressed = Dressed(garment, packs, _sized(clip))
-        return next(dressed.scenes([each.start[None] for each in dressed.cloths], [0.0]))
+        starts = [each.start[None] for each in dressed.cloths]
+        return next(dressed.scenes(starts, Schedule.at([0.0], dressed.step)))
 
     def _sized(clip: Clip) -> Settings:
         return replace(settings, size=clip.size, pixel=1)

@@ -1,0 +1,114 @@
+"""From a subject and its settings to scenes: one way for banners, shields, capes and garments.
+
+subject = subject_of(Banner.parse("red cross:white"), open_packs(()), Settings(wind=6))
+scenes = stage(subject, Schedule.at([0.0, 0.5, 1.0], subject.step))
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Protocol
+
+from drapery.banner.design import Banner
+from drapery.banner.packs import Packs
+from drapery.mesh import Array
+from drapery.render.scene import Scene
+from drapery.scenes.recording import Schedule
+from drapery.scenes.stager import StagedBody
+from drapery.settings import Settings
+from drapery.style.kinds import body_of
+
+if TYPE_CHECKING:
+    from drapery.garments.model import Garment
+
+
+class StagedSubject(Protocol):
+    """What is drawn with its settings, and how its cloth moves.
+
+    step: the longest time step of its cloth [s]. tolerance: see `Schedule.still`.
+    """
+
+    @property
+    def step(self) -> float:
+        """The longest time step of its cloth [s]."""
+
+    @property
+    def tolerance(self) -> float:
+        """The share of a step by which steps may be longer, see `Schedule.still`."""
+
+    def record(
+        self, at: Schedule, on_moment: Callable[[], object] | None = None
+    ) -> Sequence[Array]:
+        """Where each of its cloths is at the moments of a schedule [m], each [F, N, 3].
+
+        on_moment: see `recording.record`. Raises OptionError.
+        """
+
+    def scenes(self, motions: Sequence[Array], at: Schedule) -> Iterator[Scene]:
+        """The scene of each picture of a schedule.
+
+        motions: where each cloth is in them [m], each [F, N, 3]. Raises OptionError or PackError.
+        """
+
+
+def subject_of(
+    design: "Banner | Garment | None", packs: Packs, settings: Settings, period: float | None = None
+) -> StagedSubject:
+    """A design or garment in its staging.
+
+    design: None for a cape or elytra. period: of a loop [s], after which all motion repeats.
+    Raises OptionError or PackError.
+    """
+    if design is None or isinstance(design, Banner):
+        return StagedBody(body_of(design, packs, settings), settings)
+    # Imported here: pictures of banners need no pydantic.
+    from drapery.scenes.dressing import Dressed
+
+    return Dressed(design, packs, settings, period)
+
+
+def stage(
+    subject: StagedSubject, at: Schedule, on_moment: Callable[[], object] | None = None
+) -> Iterator[Scene]:
+    """The scenes of a schedule, when all cloth has moved.
+
+    on_moment: called at each simulated moment; it may raise to end the simulation.
+    Raises OptionError or PackError.
+    """
+    return subject.scenes(subject.record(at, on_moment), at)
+
+
+def still(design: "Banner | Garment | None", packs: Packs, settings: Settings) -> Scene:
+    """The scene after the cloth has been in the wind for `settings.time` seconds.
+
+    design: None for a cape or elytra. Raises OptionError or PackError.
+    """
+    subject = subject_of(design, packs, settings)
+    return next(stage(subject, Schedule.still(settings.time, subject.step, subject.tolerance)))
+
+
+def loop(
+    design: "Banner | Garment | None",
+    packs: Packs,
+    settings: Settings,
+    count: int,
+    fps: float,
+    on_moment: Callable[[], object] | None = None,
+) -> Iterator[Scene]:
+    """`count` scenes of a seamless loop: the last is followed by the first.
+
+    The wind repeats after the loop's length, and the cloth has settled into that period. A body
+    that does not move is shown from all around.
+    design: None for a cape or elytra. on_moment: see `stage`. Raises OptionError or PackError.
+    """
+    subject = subject_of(design, packs, settings, count / fps)
+    return stage(subject, Schedule.loop(count, fps, subject.step, subject.tolerance), on_moment)
+
+
+def moments(
+    design: "Banner | Garment | None", packs: Packs, settings: Settings, times: Sequence[float]
+) -> Iterator[Scene]:
+    """A scene at each of some times of one motion [s], its cloth at the nearest time steps.
+
+    design: None for a cape or elytra. Raises OptionError or PackError.
+    """
+    subject = subject_of(design, packs, settings)
+    return stage(subject, Schedule.at(times, subject.step))
