@@ -32,8 +32,7 @@ from drapery.garments import PlayerSettings, find_garment, garment_names, player
 from drapery.packs import open_packs
 from drapery.player_settings import MOTIONS
 from drapery.render import contact_sheet, draw_scene
-from drapery.scenes import STEP, Dressed, Stager, cloth_spec
-from drapery.scenes.stager import scene_at
+from drapery.scenes import STEP, Dressed, LiveBody, Schedule, cloth_spec
 from drapery.style import body_of
 
 Options = dict[str, Any]
@@ -169,17 +168,19 @@ def _staged(storm: Storm, settings: Settings, seconds: float) -> tuple[float, fl
     if settings.kind == "cape":
         settings = Settings(**{**settings.given_values, "texture": _cape_texture()})
     body = body_of(design, packs, settings)
-    stager, stretch, depth = Stager(body, settings), 0.0, -np.inf
+    live, stretch, depth = LiveBody(body, settings), 0.0, -np.inf
     met = [cloth_spec(panel, settings, body.solids).make_collisions() for panel in body.panels]
     for _ in range(round(seconds / STEP) // EVERY):
-        stager.advance(EVERY)
-        for moving, collisions in zip(stager.cloths, met, strict=True):
+        live.advance(EVERY)
+        for moving, collisions in zip(live.cloths, met, strict=True):
             positions = moving.state.positions[0].astype(float)
             stretch = max(stretch, 1 + max_stretch(positions, moving.cloth))
             solids = collisions.colliders if collisions else ()
-            depth = max(depth, _depth(positions, moving.cloth, solids, stager.time))
-    cloths = [(each.cloth, each.state.positions[0].astype(float)) for each in stager.cloths]
-    return stretch, depth, cloths if settings.contact == "all" else [], scene_at(stager, seconds)
+            depth = max(depth, _depth(positions, moving.cloth, solids, live.time))
+    cloths = [(each.cloth, each.state.positions[0].astype(float)) for each in live.cloths]
+    motions = [each.state.positions for each in live.cloths]
+    scene = next(live.scenes(motions, Schedule.at([seconds], STEP)))
+    return stretch, depth, cloths if settings.contact == "all" else [], scene
 
 
 def _dressed(storm: Storm, settings: Settings, seconds: float) -> tuple[float, float, list, Any]:
@@ -195,7 +196,8 @@ def _dressed(storm: Storm, settings: Settings, seconds: float) -> tuple[float, f
             stretch = max(stretch, 1 + max_stretch(positions, sewn.cloth))
             depth = max(depth, _depth(positions, sewn.cloth, solids, at))
     cloths = [(sewn.cloth, motion[-1]) for sewn, motion in zip(dressed.cloths, sheets, strict=True)]
-    scene = next(iter(dressed.scenes([motion[-1:] for motion in sheets], times[-1:])))
+    last = Schedule.at(times[-1:], dressed.step)
+    scene = next(dressed.scenes([motion[-1:] for motion in sheets], last))
     return stretch, depth, cloths if garment.collisions == "all" else [], scene
 
 
