@@ -8,14 +8,13 @@ from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from drapery.banner.dyes import DYES
 from drapery.elementary import cos, sin, sine_of_turns
 from drapery.mesh import Array
-from drapery.render.flatten import lay_over
 from drapery.render.scene import Material, Texels, TextureLayer
+from drapery.styles.charges import SHEET, Charges, Marks, Numbers, charges_of, merged_texels
 from drapery.styles.colour_field import Colour
 from drapery.styles.colours import as_pixels, rgb_of
 from drapery.styles.palettes import (
@@ -26,11 +25,6 @@ from drapery.styles.palettes import (
     use_palette,
 )
 from drapery.styles.step import costs
-
-SHEET = 64
-"""Width of a sheet [texels]."""
-
-Numbers = NDArray[np.intp]
 
 
 @costs(8)
@@ -83,20 +77,24 @@ def embroider(
     stitch: Annotated[int, Field(ge=2, le=8, description="width of a stitch [1/8 texel]")] = 3,
     depth: Annotated[float, Field(ge=0, le=1, description="darkness between stitches")] = 0.55,
 ) -> Material:
-    """Patterns in satin stitch, each dye in a direction of its own, on a plainly woven ground."""
+    """Patterns in satin stitch, each dye in a direction of its own, on a plainly woven ground.
+
+    A gradient dyes the threads that lie below it, and has no stitches of its own.
+    """
     texels, _ = _enlarged(material, 8)
-    dyes = _enlarged_like(_dye_numbers(material), texels)
-    ground = _enlarged_like(_dye_numbers(replace(material, layers=material.layers[:2])), texels)
+    charges = _charges(material, texels)
+    dyes = charges.dyes
+    ground = _charges(replace(material, layers=material.layers[:2]), texels).dyes
     y, x = np.indices(texels.shape[:2])
     turns = np.radians(20 + 70 * (np.arange(len(DYES)) % 3 - 1.0))
     cosine, sine = cos(turns)[dyes], sin(turns)[dyes]
     across = (x * cosine + y * sine) / stitch
     along = (y * cosine - x * sine) / (9.0 * stitch) + 0.5 * (np.floor(across) % 2)
     satin = _bulge(across % 1 * 16, 16) * (0.75 + 0.25 * _bulge(along % 1 * 16, 16))
-    edge = _near(_borders(dyes), 1)
+    edge = _near(_borders(charges.labels), 1)
     stitched = (1.12 - depth * (1 - satin)) * np.where(edge, 0.5, 1.0)
     linen = 0.93 - 0.16 * ((x // 2 + y // 2) % 2) + 0.06 * _noise(texels.shape[:2], 5)
-    seam = np.where(_near(_borders(dyes), 3), 0.72, 1.0)
+    seam = np.where(_near(_borders(charges.labels), 3), 0.72, 1.0)
     return _sheet(material, _shaded(texels, np.where(dyes == ground, linen * seam, stitched)))
 
 
@@ -112,24 +110,17 @@ def hatch(
     """Each dye as the heraldic hatching of Silvester Petra Sancta ("Tesserae gentilitiae", 1638).
 
     Dots are gold, upright lines red, level lines blue, lines down to the right green, lines down to
-    the left purple, crossed lines black, and plain paper is silver.
+    the left purple, crossed lines black, and plain paper is silver. Under a gradient the lines of a
+    charge become thinner and those of the gradient wider, as one dye fades into the other.
     """
     texels, _ = _enlarged(material, 8)
-    dyes = _enlarged_like(_dye_numbers(material), texels)
-    y, x = np.indices(texels.shape[:2])
-    lines = {
-        "|": x % spacing < width,
-        "-": y % spacing < width,
-        "\\": (x - y) % spacing < width,
-        "/": (x + y) % spacing < width,
-        ".": (x % spacing < width) & ((y + x // spacing % 2 * (spacing // 2)) % spacing < width),
-        ":": (y % spacing < width) & ((x + y // spacing % 2 * spacing) % (2 * spacing) < spacing),
-    }
-    drawn = _borders(dyes)
-    for number, name in enumerate(DYES):
-        for mark in _HATCHING[name]:
-            drawn |= (dyes == number) & lines[mark]
-    colours = np.where(drawn[..., None], rgb_of(ink), rgb_of(paper)).astype(np.uint8)
+    charges = _charges(material, texels)
+    drawn = _near(_borders(charges.labels), 1).astype(np.float64)
+    for number, share in charges.shares.items():
+        for mark in _HATCHING[NAMES[number]]:
+            np.maximum(drawn, _lines(mark, spacing, width * share), out=drawn)
+    blank, black = np.array(rgb_of(paper), float), np.array(rgb_of(ink), float)
+    colours = _bytes(blank + drawn[..., None] * (black - blank))
     return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
 
 
@@ -142,17 +133,18 @@ def stained_glass(
 ) -> Material:
     """Panes of bright glass in lead, which goes along the edges of colours and in diamonds."""
     texels, fine = _enlarged(material, 8)
-    flat, dyes = _dye_colours(material, texels), _enlarged_like(_dye_numbers(material), texels)
+    charges = _charges(material, texels)
+    flat, dyes = _mixed_dyes(charges), charges.dyes
     y, x = np.indices(texels.shape[:2])
     side = pane * fine
     one: Numbers = np.asarray((x + y // 2) // side)
     other: Numbers = np.asarray((x - y // 2 + 64 * side) // side)
-    came = _near(_borders(dyes) | _borders(one) | _borders(other), lead - 1)
+    came = _near(_borders(charges.labels) | _borders(one) | _borders(other), lead - 1)
     own = _noise((256, 256), 7)[one % 256, (other + 7 * dyes) % 256]
     streaks = _smooth_noise(texels.shape[:2], fine, 8)
     glow = 0.72 + 0.4 * own + 0.35 * (streaks - 0.5)
     glass = _vivid(flat, 1.35) * glow[..., None] + 26
-    core = _near(_borders(dyes) | _borders(one) | _borders(other), max(lead - 3, 0))
+    core = _near(_borders(charges.labels) | _borders(one) | _borders(other), max(lead - 3, 0))
     metal = np.where(core[..., None], 92.0, 38.0) * np.array([0.95, 1.0, 1.05])
     colours = np.clip(np.where(came[..., None], metal, glass), 0, 255).astype(np.uint8)
     return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
@@ -218,6 +210,9 @@ def parchment(
     return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
 
 
+NAMES = tuple(DYES)
+"""The names of the dyes by their numbers."""
+
 _HATCHING = {
     **{"white": "", "light_gray": ".-", "gray": "-:", "black": "|-", "brown": "-\\"},
     **{"red": "|", "orange": "|:", "yellow": ".", "lime": "\\.", "green": "\\", "cyan": "\\:"},
@@ -230,70 +225,54 @@ _DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)
 
 def _enlarged(material: Material, fine: int) -> tuple[Texels, int]:
     """The layers of a material as one, opaque, and its pixels a texel; at least `fine` of them."""
-    merged = _merged(material)
+    merged = merged_texels(material)
     side = merged.shape[1]
     times = max(1, fine * SHEET // side)
     large = merged.repeat(times, axis=0).repeat(times, axis=1)
     return large, max(1, side * times // SHEET)
 
 
-def _merged(material: Material) -> Texels:
-    """The layers of a material as one, as wide as the widest of them."""
-    side = max(layer.texels.shape[1] for layer in material.layers)
-    merged: Texels | None = None
-    for layer in material.layers:
-        own = layer.texels.copy()
-        own[..., :3] = (own[..., :3] * np.array(layer.tint, np.uint16) + 127) // 255
-        own = own.repeat(side // own.shape[1], axis=0).repeat(side // own.shape[1], axis=1)
-        if merged is None:
-            merged = own
-            if material.alpha == "opaque":
-                merged[..., 3] = 255
-        else:
-            merged = lay_over(own, merged)
-    assert merged is not None
-    return merged
-
-
 def _sheet(material: Material, texels: Texels) -> Material:
     return replace(material, layers=(TextureLayer(np.ascontiguousarray(texels)),))
 
 
-def _enlarged_like(values: Numbers, texels: Texels) -> Numbers:
-    times = texels.shape[1] // values.shape[1]
-    return values.repeat(times, axis=0).repeat(times, axis=1)
+def _charges(material: Material, texels: Texels) -> Charges:
+    """The charges of a material on an enlarged sheet of it."""
+    charges = charges_of(material)
+    return charges.repeated(texels.shape[1] // charges.dyes.shape[1])
 
 
-def _dye_numbers(material: Material) -> Numbers:
-    """The dye of each texel: that of the uppermost layer that covers half of it, or the nearest."""
-    side = max(layer.texels.shape[1] for layer in material.layers)
-    numbers = {dye.rgb: dye.number for dye in DYES.values()}
-    tinted = [layer for layer in material.layers if layer.tint in numbers]
-    if len(tinted) < len(material.layers) - 1 or not tinted:
-        return _nearest_dyes(_merged(material))
-    shape = max(layer.texels.shape[0] for layer in material.layers), side
-    found = np.zeros(shape, np.intp)
-    for layer in tinted:
-        times = side // layer.texels.shape[1]
-        shown = (layer.texels[..., 3] >= 128).repeat(times, axis=0).repeat(times, axis=1)
-        found[shown] = numbers[layer.tint]
-    return found
-
-
-def _nearest_dyes(texels: Texels) -> Numbers:
-    colours = np.array([dye.rgb for dye in DYES.values()], np.int32)
-    apart = texels[..., None, :3].astype(np.int32) - colours
-    nearest: Numbers = np.argmin((apart * apart).sum(axis=-1), axis=-1)
-    return nearest
-
-
-def _dye_colours(material: Material, texels: Texels) -> Array:
-    colours = np.array([dye.rgb for dye in DYES.values()], np.float64)
-    flat: Array = colours[_enlarged_like(_dye_numbers(material), texels)]
+def _mixed_dyes(charges: Charges) -> Array:
+    """The dyes that one sees at each texel, without the shading of their textures [0..255]."""
+    flat = np.zeros((*charges.dyes.shape, 3))
+    for number, share in charges.shares.items():
+        flat += share[..., None] * np.array(DYES[NAMES[number]].rgb)
     return flat
 
 
-def _borders(values: Numbers) -> NDArray[np.bool_]:
+def _lines(mark: str, spacing: int, width: Array) -> Array:
+    """How much of each texel a kind of lines covers, 0 to 1. width: of the lines [texels]."""
+    y, x = np.indices(width.shape)
+    level, upright = _stripes(y, spacing, width), _stripes(x, spacing, width)
+    if mark == "|":
+        return upright
+    if mark == "-":
+        return level
+    if mark == ".":
+        return upright * _stripes(y + x // spacing % 2 * (spacing // 2), spacing, width)
+    if mark == ":":
+        return level * ((x + y // spacing % 2 * spacing) % (2 * spacing) < spacing)
+    return _stripes((x - y if mark == "\\" else x + y) / 2**0.5, spacing, width)
+
+
+def _stripes(place: Array | Numbers, spacing: int, width: Array) -> Array:
+    """How much of each texel stripes cover that begin at multiples of `spacing`, 0 to 1."""
+    off = np.abs((place + 0.5) % spacing - 0.5 * width)
+    covered: Array = np.clip(0.5 + 0.5 * width - np.minimum(off, spacing - off), 0, 1)
+    return np.minimum(covered, width)
+
+
+def _borders(values: Numbers) -> Marks:
     """Whether the value to the right of a pixel, or below it, is another one."""
     edge = np.zeros(values.shape, np.bool_)
     edge[:, :-1] |= values[:, :-1] != values[:, 1:]
@@ -301,13 +280,13 @@ def _borders(values: Numbers) -> NDArray[np.bool_]:
     return edge
 
 
-def _near(marks: NDArray[np.bool_], distance: int) -> NDArray[np.bool_]:
+def _near(marks: Marks, distance: int) -> Marks:
     """Pixels at most this far from a mark, across, down or diagonally."""
     from scipy.ndimage import binary_dilation
 
     if distance < 1:
         return marks
-    near: NDArray[np.bool_] = binary_dilation(marks, np.ones((3, 3), np.bool_), distance)
+    near: Marks = binary_dilation(marks, np.ones((3, 3), np.bool_), distance)
     return near
 
 
