@@ -7,11 +7,12 @@ import numpy as np
 
 from drapery.cloth.attachments import stretch_limits
 from drapery.cloth.checks import check_count
-from drapery.cloth.cloth import Cloth
+from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.collision_world import THINNEST, CollisionWorld
+from drapery.cloth.colliders.pose import still
 from drapery.cloth.colliders.sampling import sample_points
-from drapery.cloth.colliders.shapes import Box, Plane
+from drapery.cloth.colliders.shapes import Box, Plane, Shape
 from drapery.cloth.contact.box_data import NOTHING, BoxColliders, box_colliders
 from drapery.cloth.contact.self_contact import meet_all
 from drapery.cloth.contact.self_contact_data import SelfContact, make_self_contact
@@ -21,13 +22,18 @@ from drapery.cloth.state import State
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
+BESIDE = 0.5
+"""Cloth so thick that its cells beside a pin cannot reach its distance from a box at rest, and
+would be torn from the pin, keeps the distance of the pin and this part of a cell."""
+
 
 @dataclass(frozen=True, eq=False)
 class Collisions:
     """What a cloth collides with.
 
     colliders: applied one after another; where two overlap, the last one decides.
-    thickness: of the cloth [m]; particles stay half of it away from every collider.
+    thickness: of the cloth [m]; particles stay half of it away from every collider. Cloth that is
+        much thicker than the cells beside its pins stays less far from boxes at rest.
     order: how finely faces are tested, 1 to 16, see `sample_points`.
     apart: least distance between parts of the cloth itself [m], such as its thickness; None lets
         it pass through itself. Cloths that `sew` joins without seams meet each other.
@@ -80,9 +86,42 @@ def boxes_met(cloth: Cloth, collisions: Collisions) -> BoxColliders | None:
     colliders = collisions.colliders
     if not all(isinstance(c.shape, Box | Plane) and not c.restitution for c in colliders):
         return None
-    radius = max(collisions.thickness / 2, THINNEST)
+    radius = max(_radius_at_pins(cloth, collisions), THINNEST)
     surface = cloth.inv_mass, cloth.triangles, cloth.rest_positions
     return box_colliders(*surface, colliders, radius) if colliders else NOTHING
+
+
+def _radius_at_pins(cloth: Cloth, collisions: Collisions) -> float:
+    """The distance [m] that a cloth keeps from boxes: half its thickness, see also BESIDE."""
+    radius = collisions.thickness / 2
+    pinned = cloth.inv_mass == 0
+    structural = cloth.spring_kind == STRUCTURAL
+    pairs, lengths = cloth.spring_pairs[structural], cloth.spring_length[structural]
+    beside = pinned[pairs].sum(axis=1) == 1
+    if not beside.any():
+        return radius
+    cell = float(lengths[beside].min())
+    pins = cloth.rest_positions[pinned]
+    gaps = [
+        _gaps(pins, collider.shape) for collider in collisions.colliders if collider.path is still
+    ]
+    outside = np.concatenate([[np.inf], *gaps])
+    nearest = float(outside[outside >= 0].min())
+    return radius if radius <= nearest + cell else nearest + BESIDE * cell
+
+
+def _gaps(places: Array, shape: Shape) -> Array:
+    """Distances of places [N, 3] from a box or a plane [m], [N]; below 0 inside."""
+    if isinstance(shape, Plane):
+        normal = np.asarray(shape.normal, float)
+        length = np.sqrt((normal * normal).sum())
+        return np.asarray(((places - shape.point) * normal).sum(axis=1) / length)
+    assert isinstance(shape, Box)
+    local = np.einsum("ji,nj->ni", np.asarray(shape.rotation, float), places - shape.centre)
+    away = np.abs(local) - np.asarray(shape.size, float) / 2
+    outside = np.maximum(away, 0.0)
+    gaps: Array = np.sqrt((outside * outside).sum(axis=1)) + np.minimum(away.max(axis=1), 0.0)
+    return gaps
 
 
 def met_inside(cloth: Cloth, collisions: Collisions) -> BoxColliders | None:
