@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,11 +13,21 @@ from drapery import animate, draw
 from drapery.commands.app import command_line
 from drapery.errors import OptionError
 from drapery.garments import dressed_player, find_garment, make_wearer, motion_names, tailor
-from drapery.garments.motions import MAX_BYTES, KeyPose, Motion, bone_poses, find_motion
+from drapery.garments.motions import (
+    MAX_BYTES,
+    POSE_FIELDS,
+    KeyPose,
+    Motion,
+    bone_table,
+    find_motion,
+    player_bones,
+)
+from drapery.garments.poses import BonePoses
 from drapery.packs import open_packs
 from drapery.player_settings import MOTIONS
 from drapery.scenes import Dressed
 from drapery.scenes.player_motion import player_poses
+from drapery.scenes.recording import Schedule
 from drapery.settings import Settings
 from drapery.sheets import players_sheet
 from drapery.style.boxes import ModelBox
@@ -110,13 +121,44 @@ def test_a_skin_of_another_size_is_refused(shape: tuple[int, int]) -> None:
         read_skin(np.zeros((*shape, 4), np.uint8))
 
 
+def placed_bones(turns: np.ndarray, grounded: bool) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """The pose of each bone of a player, by name."""
+    table = bone_table(turns[None], PARTS, grounded)
+    return BonePoses(player_bones(PARTS), lambda times: table)(0.0)
+
+
+def test_a_table_of_poses_has_the_bits_of_each_time_alone() -> None:
+    """A cloth that is moved in one call or in many meets the same boxes."""
+    times = np.array([0.0, 0.1, 1 / 3, 0.5, 1.7, 8.3])
+    fields = {"look": (20.0, -10.0), "head": "red", "speed": 2.0}
+    for motion in ("walk", "wave", "walk+wave", "run:0.5,stand:0.5"):
+        poses = player_poses(make_wearer(motion=motion, **fields), Path(), PARTS, None)
+        table = poses.at(times)
+        for row, time in zip(table, times, strict=True):
+            assert poses.at(np.array([time]))[0].tobytes() == row.tobytes()
+
+
+def test_a_still_asks_for_poses_in_blocks_not_step_by_step() -> None:
+    cape, asked = find_garment("cape"), []
+    dressed = Dressed(cape, open_packs(()), cape.settings())
+    assert dressed.wearer is not None
+    poses = dressed.wearer.poses
+
+    def counted(times: np.ndarray) -> np.ndarray:
+        asked.append(len(times))
+        return poses.table(times)
+
+    dressed.__dict__["wearer"] = replace(dressed.wearer, poses=BonePoses(poses.bones, counted))
+    dressed.record(Schedule.still(0.5, 1 / 120))
+    assert len(asked) == 2 and min(asked) > 60  # the pins at all substeps, the boxes at all steps
+
+
 @pytest.mark.parametrize("name", [n for n in motion_names() if n != "walk"])
 def test_a_motion_repeats_and_keeps_on_the_ground(name: str) -> None:
     motion = find_motion(name)
-    first, again = (motion.key_pose(time) for time in (0.3, 0.3 + motion.period))
-    for field in KeyPose.model_fields:
-        np.testing.assert_allclose(getattr(first, field), getattr(again, field), atol=1e-9)
-    placed = bone_poses(first, PARTS, motion.grounded)
+    first, again = motion.turns(np.array([0.3, 0.3 + motion.period]))
+    np.testing.assert_allclose(first, again, atol=1e-9)
+    placed = placed_bones(first, motion.grounded)
     lowest = min(
         float(((PARTS[leg].centre - [0, 6 * TEXEL, 0]) @ placed[leg][1].T + placed[leg][0])[1])
         for leg in ("right_leg", "left_leg")
@@ -128,7 +170,7 @@ def test_a_motion_repeats_and_keeps_on_the_ground(name: str) -> None:
 
 def test_joints_hold_when_everything_turns() -> None:
     pose = KeyPose(root=(40, 20, 10), right_arm=(70, 0, -30), shift=(1, 2, 3))
-    placed = bone_poses(pose, PARTS, False)
+    placed = placed_bones(pose.turns, False)
     joint = np.array([-6, 22, 0]) * TEXEL  # the right shoulder
     at_arm, at_body = (
         place + turn @ joint for place, turn in (placed["right_arm"], placed["body"])
@@ -138,14 +180,15 @@ def test_joints_hold_when_everything_turns() -> None:
 
 def test_motion_between_key_poses_is_smooth() -> None:
     motion = Motion(poses=(KeyPose(head=(0, 0, 0)), KeyPose(head=(10, 0, 0))), period=2)
-    angles = [motion.key_pose(time).head[0] for time in (0, 0.25, 0.5, 1, 1.5, 2)]
+    angles = motion.turns(np.array([0, 0.25, 0.5, 1, 1.5, 2]))[:, POSE_FIELDS.index("head"), 0]
     np.testing.assert_allclose(angles, [0, 1.4644661, 5, 10, 5, 0], atol=1e-6)
 
 
 def test_a_pose_of_a_json_file_and_its_faults(tmp_path: Path) -> None:
     path = tmp_path / "pose.json"
     path.write_text(json.dumps({"head": [0, 30, 0]}))
-    assert find_motion("pose.json", tmp_path).key_pose(1.0).head == (0, 30, 0)
+    (pose,) = find_motion("pose.json", tmp_path).poses
+    assert pose.head == (0, 30, 0)
     path.write_text(json.dumps({"tail": [0, 30, 0]}))
     with pytest.raises(OptionError, match=r"tail cannot be used; .* root, head"):
         find_motion("pose.json", tmp_path)
@@ -251,7 +294,7 @@ def test_the_blocks_of_the_page_work(tmp_path: Path, monkeypatch: pytest.MonkeyP
     blocks = dict(re.findall(r"```(\w+)\n(.*?)```", PAGE, re.DOTALL))
     monkeypatch.chdir(tmp_path)
     (tmp_path / "pose.json").write_text(blocks["json"])
-    assert find_motion("pose.json").key_pose(0).shift == (0, 2, 0)
+    assert find_motion("pose.json").poses[0].shift == (0, 2, 0)
     exec(blocks["python"], {})
     assert (tmp_path / "player.png").exists()
 
@@ -279,7 +322,7 @@ def test_the_command_draws_a_player(tmp_path: Path) -> None:
 
 def poses_of(motion: str, time: float, loop: float | None = None, **fields: object) -> dict:
     who = make_wearer(motion=motion, **fields)
-    return dict(player_poses(who, Path(), PARTS, loop)(time))
+    return player_poses(who, Path(), PARTS, loop)(time)
 
 
 def test_layered_motions_turn_the_bones_that_the_later_one_moves() -> None:

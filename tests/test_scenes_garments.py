@@ -9,7 +9,7 @@ from drapery.errors import OptionError
 from drapery.mesh import vertex_normals
 from drapery.scenes import cape, scarf, skirt
 from drapery.scenes.catalogue import Clip, find_scene
-from drapery.scenes.gait import LEG, Gait, _about_joint
+from drapery.scenes.gait import LEG, Gait
 from drapery.style.extrusion import boundary_edges
 from drapery.style.figure import PARTS, TEXEL
 
@@ -29,9 +29,10 @@ def test_the_lower_foot_of_a_walk_stays_on_the_ground() -> None:
 
 
 def test_a_walk_turns_limbs_by_the_bits_of_any_rotation() -> None:
-    for degrees in (0.0, 1.5, -36.7, 64.158):
-        _, turned = _about_joint(PARTS["right_leg"], degrees, 0.0)
-        assert np.array_equal(turned, rotation_about((1, 0, 0), degrees))
+    gait = Gait()
+    times = np.linspace(0, gait.period, 9)
+    leg = gait.poses.path("right_leg").at(times)[:, 3:].reshape(-1, 3, 3)
+    assert np.array_equal(leg, rotation_about((1, 0, 0), gait.turn(times)))
 
 
 def test_a_foot_moves_back_as_far_as_the_ground() -> None:

@@ -9,7 +9,8 @@ import pytest
 
 from drapery.errors import OptionError
 from drapery.garments import Garment, dressed_player, find_garment, make_wearer, motion_names
-from drapery.garments.motions import KeyPose, bone_poses, find_motion
+from drapery.garments.motions import KeyPose, bone_table, find_motion, player_bones
+from drapery.garments.poses import BonePoses
 from drapery.packs import open_packs
 from drapery.scenes import Dressed
 from drapery.scenes.gait import Gait
@@ -108,10 +109,11 @@ def test_both_wings_return_after_a_glide() -> None:
     assert dressed.wearer is not None
     glide = find_motion("glide")
 
-    def poses(time: float) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        share = min(max(3.0 - 2 * time, 0.0), 1.0)  # all of it until 1 s, nothing from 1.5 s on
-        return bone_poses(KeyPose().mixed(glide.key_pose(0), share), PARTS, True)
+    def table(times: np.ndarray) -> np.ndarray:
+        shares = np.clip(3.0 - 2 * times, 0.0, 1.0)  # all of it until 1 s, nothing from 1.5 s on
+        return bone_table(shares[:, None, None] * glide.turns(0 * times), PARTS, True)
 
+    poses = BonePoses(player_bones(PARTS), table)
     dressed.__dict__["wearer"] = replace(dressed.wearer, poses=poses)
     both, _ = recorded(dressed, [0.0, 1.0, 4.0])
     away = np.linalg.norm(both[:, 2] - wings("stand")[0][:, -1], axis=-1)
@@ -121,7 +123,8 @@ def test_both_wings_return_after_a_glide() -> None:
 
 def test_wings_turn_about_the_shoulders_of_the_body() -> None:
     pose = KeyPose(root=(40, 20, 10), body=(0, 30, 0), left_wing=(15, -10, 60), shift=(1, 2, 3))
-    placed = bone_poses(pose, PARTS, False)
+    table = bone_table(pose.turns[None], PARTS, False)
+    placed = BonePoses(player_bones(PARTS), lambda times: table)(0.0)
     joint = np.array(WING_JOINTS["left_wing"]) * TEXEL * [1, -1, -1]
     at_wing, at_body = (
         place + turn @ joint for place, turn in (placed["left_wing"], placed["body"])

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from drapery.cloth.checks import shown
-from drapery.cloth.pins import PinPath
+from drapery.cloth.pins import PinPath, PinTable
 from drapery.cloth.simd import lanes_per_register, padded_count
 from drapery.cloth.state import State
 from drapery.errors import OptionError
@@ -22,6 +22,8 @@ from drapery.mesh import Array
 
 BLOCK_BYTES = 1 << 18
 """Bytes of a block's positions and velocities; with the kernels' scratch arrays it fits in L2."""
+MAX_TIMES = 2048
+"""Tables of poses are asked for at most so many times at once, which bounds their memory."""
 
 
 def to_lanes(values: Array) -> Array:
@@ -126,6 +128,8 @@ def pin_targets(path: PinPath | None, state: State, dt: float, steps: int, pinne
     dtype = state.positions.dtype
     if path is None:
         return np.zeros((0, 3 * pinned, 1), dtype)
+    if isinstance(path, PinTable):
+        return _table_targets(path, state.time + np.arange(1, steps + 1) * dt).astype(dtype)
     count = len(state.positions)
     targets = []
     for step in range(steps):
@@ -143,3 +147,14 @@ def pin_targets(path: PinPath | None, state: State, dt: float, steps: int, pinne
             raise OptionError("pin path gave NaN or infinity; give finite positions [m]")
         targets.append(to_lanes(place) if place.ndim == 3 else place.reshape(-1, 1))
     return np.stack(targets)
+
+
+def _table_targets(table: PinTable, times: Array) -> Array:
+    """Positions of the P pins of a table at T times [s], shape [T, 3P, 1]."""
+    parts = [table.at(part).reshape(len(part), -1, 1) for part in time_blocks(times)]
+    return np.concatenate(parts)
+
+
+def time_blocks(times: Array) -> list[Array]:
+    """Times [s], shape [T], in parts of at most `MAX_TIMES`."""
+    return [times[first : first + MAX_TIMES] for first in range(0, len(times), MAX_TIMES)]

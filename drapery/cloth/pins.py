@@ -1,6 +1,7 @@
 """Pinned particles, and the paths they follow."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -22,6 +23,21 @@ The P pins are in the order of the particles' numbers.
 """
 PosePath = Callable[[float], tuple[Array, Array]]
 """Rotation [3, 3] and translation [m], [3], of a rigid body at a time [s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class PinTable:
+    """A `PinPath` that a solver asks for many times at once.
+
+    at: positions of the P pins [m] at T times [s]: from shape [T] to [T, P, 3].
+    """
+
+    at: Callable[[Array], Array]
+
+    def __call__(self, time: float) -> Array:
+        """Positions of the pins [m] at one time [s], shape [P, 3]."""
+        places: Array = self.at(np.array([time]))[0]
+        return places
 
 
 def pinned_particles(

@@ -1,7 +1,7 @@
 """From a garment to cloth that moves: pieces are cut, sewn and pinned."""
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
-from drapery.cloth import Cloth, PinPath, Seam, sew
+from drapery.cloth import Cloth, Seam, sew
+from drapery.cloth.pins import PinTable
 from drapery.cloth.sewing import sewn_particles
 from drapery.errors import OptionError, counted
 from drapery.garments.model import NO_BONE, Garment, GarmentPin, GridPiece
+from drapery.garments.poses import BonePoses
 from drapery.garments.shapes import CutPiece, Particles, cut_pieces
 from drapery.garments.textures import texture_of
 from drapery.mesh import Array, vertex_normals
@@ -24,13 +26,6 @@ from drapery.style.visible import is_invisible
 
 LAYER = 2.5
 """A layer of cloth adds so many thicknesses to the distance of the next from what it meets."""
-
-BonePose = tuple[Array, Array]
-"""Where a bone is: position [m], shape [3], and rotation, shape [3, 3], from its place at rest."""
-
-
-BonePoses = Callable[[float], Mapping[str, BonePose]]
-"""The poses of all bones, by name, at a time [s]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,23 +68,24 @@ class SewnCloth:
         """Whether the body stops it; the flag of a banner on the head meets no garment."""
         return self.solid is None or "body" in self.solid
 
-    def pin_path(self, poses: BonePoses) -> PinPath:
-        """Where its pins are at a time [s]. poses: of all bones at a time."""
+    def pin_path(self, poses: BonePoses) -> PinTable:
+        """Where its pins are. poses: of the bones that hold them."""
         rest = self.start[self.cloth.inv_mass == 0]
         held = [
-            (name, np.flatnonzero([bone == name for bone in self.bones]))
+            (poses.bones.index(name), np.flatnonzero([bone == name for bone in self.bones]))
             for name in sorted(set(self.bones) - {NO_BONE})
         ]
 
-        def path(time: float) -> Array:
-            places: Array = rest.copy()
-            for name, pins in held:
-                position, rotation = poses(time)[name]
+        def at(times: Array) -> Array:
+            table, places = poses.at(times), np.repeat(rest[None], len(times), axis=0)
+            for number, pins in held:
+                position, rotation = table[:, number, None, :3], table[:, number, 3:]
+                turns = rotation.reshape(-1, 3, 3)
                 # einsum adds in a fixed order; BLAS may not.
-                places[pins] = np.einsum("ij,nj->ni", rotation, rest[pins]) + position
+                places[:, pins] = np.einsum("tij,nj->tni", turns, rest[pins]) + position
             return places
 
-        return path
+        return PinTable(at)
 
     def models(self, positions: Array) -> list[ClothModel]:
         """Its pieces, thick. positions: of the particles [m], shape [N, 3]."""

@@ -1,10 +1,10 @@
 """Motions of players as data: key poses, and the poses of all bones between them."""
 
 from collections.abc import Mapping
-from functools import cache, lru_cache
+from functools import cache, cached_property
 from importlib.resources import as_file, files
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field, ValidationError
@@ -16,7 +16,7 @@ from drapery.garments.blends import unknown_motion
 from drapery.garments.model import Angle, GarmentTable, Length
 from drapery.json_text import JSONTextError, parse_json
 from drapery.mesh import Array
-from drapery.style.figure import TEXEL, WING_JOINTS, FigurePart, Placed, to_metres
+from drapery.style.figure import TEXEL, WING_JOINTS, FigurePart, to_metres
 from drapery.toml_text import read_toml
 from drapery.user_files import read_user_file
 
@@ -25,6 +25,8 @@ MAX_BYTES = 1 << 16
 HIPS = np.array([0.0, 12 * TEXEL, 0.0])
 """About which `root` turns everything [m]."""
 LEGS = ("right_leg", "left_leg")
+CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+"""Those of a box, from its middle, in halves of its edges."""
 
 Turns = tuple[Angle, Angle, Angle]
 NO_TURN: Turns = (0.0, 0.0, 0.0)
@@ -48,16 +50,14 @@ class KeyPose(GarmentTable):
     left_wing: Turns = NO_TURN
     shift: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
 
-    def mixed(self, other: "KeyPose", share: float) -> "KeyPose":
-        """A pose between this one, at share 0, and another, at share 1."""
-        values: dict[str, Any] = {
-            name: tuple(
-                a + (b - a) * share
-                for a, b in zip(getattr(self, name), getattr(other, name), strict=True)
-            )
-            for name in KeyPose.model_fields
-        }
-        return KeyPose.model_construct(**values)
+    @property
+    def turns(self) -> Array:
+        """The turns [degrees] and the shift [texels] as `POSE_FIELDS` names them, [F, 3]."""
+        return np.array([getattr(self, name) for name in POSE_FIELDS])
+
+
+POSE_FIELDS = tuple(KeyPose.model_fields)
+"""The fields of a pose: the bones that it turns, `root` and `shift`."""
 
 
 class Motion(GarmentTable):
@@ -70,12 +70,26 @@ class Motion(GarmentTable):
     period: Annotated[float, Field(strict=True, ge=0.1, le=60)] = 1.0
     grounded: bool = False
 
-    def key_pose(self, time: float) -> KeyPose:
-        """The pose at a time [s]; between key poses the angles follow a cosine."""
+    @cached_property
+    def _turns(self) -> Array:
+        return np.array([pose.turns for pose in self.poses])
+
+    def turns(self, times: Array) -> Array:
+        """The pose at T times [s] as `KeyPose.turns`, shape [T, F, 3].
+
+        Between key poses the angles follow a cosine.
+        """
         count = len(self.poses)
-        number, share = divmod(time / self.period % 1.0 * count, 1.0)
-        first, second = (self.poses[(int(number) + step) % count] for step in (0, 1))
-        return first.mixed(second, 0.5 - 0.5 * float(sine_of_turns(share / 2 + 0.25)))
+        number, share = np.divmod(times / self.period % 1.0 * count, 1.0)
+        first, second = (self._turns[(number.astype(int) + step) % count] for step in (0, 1))
+        share = 0.5 - 0.5 * sine_of_turns(share / 2 + 0.25)
+        return mixed(first, second, share[:, None, None])
+
+
+def mixed(first: Array, second: Array, share: Array | float) -> Array:
+    """Turns between the first ones, at share 0, and the second ones, at share 1."""
+    between: Array = first + (second - first) * share
+    return between
 
 
 def find_motion(name: str, folder: Path = Path()) -> Motion:
@@ -116,49 +130,72 @@ def _read_pose(path: Path) -> KeyPose:
         raise OptionError(f"{path} is not JSON{error}") from None
 
 
-def bone_poses(pose: KeyPose, parts: Mapping[str, FigurePart], grounded: bool) -> dict[str, Placed]:
-    """Where each bone of a player is in a pose. parts: its boxes and joints."""
-    root = _rotation(pose.root)
-    shift = np.array(pose.shift) * TEXEL
-    placed = {}
-    for name, part in parts.items():
-        turn, joint = _rotation(getattr(pose, name)), to_metres(np.array(part.joint))
+def player_bones(parts: Mapping[str, FigurePart]) -> tuple[str, ...]:
+    """The bones of a player, in the order of `bone_table`. parts: its boxes and joints."""
+    return (*parts, *WING_JOINTS)
+
+
+def bone_table(turns: Array, parts: Mapping[str, FigurePart], grounded: bool) -> Array:
+    """Place [m] and rotation matrix of each bone of a player in T poses, shape [T, K, 12].
+
+    turns: of each pose, see `KeyPose.turns`, shape [T, F, 3].
+    parts: its boxes and joints.
+    grounded: whether the lowest leg stays on the ground.
+    """
+    bones = player_bones(parts)
+    turn = dict(zip(POSE_FIELDS, np.moveaxis(_rotations(turns), 1, 0), strict=True))
+    shift, root = turns[:, POSE_FIELDS.index("shift")] * TEXEL, turn["root"]
+    table = np.empty((len(turns), len(bones), 12))
+    places, rotations = table[..., :3], table[..., 3:].reshape(*table.shape[:2], 3, 3)
+    for number, (name, part) in enumerate(parts.items()):
+        joint = to_metres(np.array(part.joint))
         # About the joint, then about the hips: R (T (x - joint) + joint - hips) + hips.
-        offset = joint - _applied(turn, joint)
-        rotation = np.einsum("ij,jk->ik", root, turn)
-        placed[name] = _applied(root, offset - HIPS) + HIPS + shift, rotation
-    body, back = placed["body"]
+        offset = joint - turned(turn[name], joint)
+        places[:, number] = turned(root, offset - HIPS) + HIPS + shift
+        rotations[:, number] = product(root, turn[name])
+    body = bones.index("body")
     for name, joint_texels in WING_JOINTS.items():
-        turn, joint = _rotation(getattr(pose, name)), to_metres(np.array(joint_texels))
-        place = _applied(back, joint - _applied(turn, joint)) + body
-        placed[name] = place, np.einsum("ij,jk->ik", back, turn)
+        joint, number = to_metres(np.array(joint_texels)), bones.index(name)
+        offset = joint - turned(turn[name], joint)
+        places[:, number] = turned(rotations[:, body], offset) + places[:, body]
+        rotations[:, number] = product(rotations[:, body], turn[name])
     if grounded:
-        rise = np.array([0.0, -_lowest(placed, parts), 0.0])
-        placed = {name: (place + rise, turn) for name, (place, turn) in placed.items()}
-    return placed
+        rise = np.zeros((len(turns), 1, 3))
+        rise[:, 0, 1] = -_lowest(table, parts)
+        places += rise
+    return table
 
 
-def _lowest(placed: Mapping[str, Placed], parts: Mapping[str, FigurePart]) -> float:
-    """Height of the lowest corner of the legs [m]."""
-    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+def _lowest(table: Array, parts: Mapping[str, FigurePart]) -> Array:
+    """Height of the lowest corner of the legs in each pose [m], shape [T]."""
     heights = []
     for name in LEGS:
-        place, turn = placed[name]
-        corners = parts[name].centre + signs * parts[name].extent / 2
-        heights.append((corners * turn[1]).sum(axis=1) + place[1])
-    return float(np.min(heights))
+        rows = table[:, list(parts).index(name)]
+        corners = parts[name].centre + CORNERS * parts[name].extent / 2
+        heights.append((corners * rows[:, None, 6:9]).sum(axis=2) + rows[:, None, 1])
+    lowest: Array = np.concatenate(heights, axis=1).min(axis=1)
+    return lowest
 
 
-def _applied(rotation: Array, point: Array) -> Array:
+def turned(rotations: Array, points: Array) -> Array:
+    """Points [..., 3] turned by rotation matrices [..., 3, 3]."""
     # Summed in a fixed order; BLAS may not.
-    turned: Array = (rotation * point).sum(axis=1)
-    return turned
+    found: Array = (rotations * points[..., None, :]).sum(axis=-1)
+    return found
 
 
-@lru_cache(maxsize=256)
-def _rotation(turns: Turns) -> Array:
-    rotation: Array = np.eye(3)
-    for axis, degrees in zip(((1, 0, 0), (0, 1, 0), (0, 0, 1)), turns, strict=True):
-        if degrees:
-            rotation = np.einsum("ij,jk->ik", rotation_about(axis, degrees), rotation)
-    return rotation
+def product(first: Array, second: Array) -> Array:
+    """The products of matrices [..., 3, 3]."""
+    # Summed in a fixed order; BLAS may not.
+    found: Array = (first[..., None] * second[..., None, :, :]).sum(axis=-2)
+    return found
+
+
+def _rotations(turns: Array) -> Array:
+    """Rotations about x, then y, then z [degrees]: from shape [..., 3] to [..., 3, 3]."""
+    rotations: Array = np.broadcast_to(np.eye(3), (*turns.shape, 3))
+    for number, axis in enumerate(((1, 0, 0), (0, 1, 0), (0, 0, 1))):
+        degrees = turns[..., number]
+        made = product(rotation_about(axis, degrees), rotations)
+        rotations = np.where((degrees != 0)[..., None, None], made, rotations)
+    return rotations

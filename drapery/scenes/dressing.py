@@ -199,10 +199,10 @@ class Dressed:
         numbers = meet_each_other(self.cloths) if self.wearer is not None and met else []
         if not numbers or self.wearer is None:
             return None
-        sewn, poses = [self.cloths[number] for number in numbers], self.wearer.poses
+        sewn, body = [self.cloths[number] for number in numbers], self.wearer.poses.path("body")
         common = replace(sewn[0], solid=common_bones(sewn, tuple(self.wearer.parts)))
         colliders = self.colliders(common, *sewn[1:])
-        return Meeting(numbers, joint_contact(sewn, colliders, lambda time: poses(time)["body"]))
+        return Meeting(numbers, joint_contact(sewn, colliders, body))
 
     def _collisions(self, sewn: SewnCloth) -> Collisions | None:
         """What a cloth meets beside other garments."""

@@ -5,15 +5,18 @@ as on a figure that walks through still air.
 """
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from functools import lru_cache
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from drapery.cloth.colliders import Box, Collider, Path, Pose
-from drapery.elementary import sine_of_turn
-from drapery.style.figure import PARTS, TEXEL, WING_JOINTS, FigurePart, Placed
+from drapery.cloth.colliders import Box, Collider
+from drapery.elementary import sine_of_turns
+from drapery.garments.poses import BonePoses
+from drapery.mesh import Array
+from drapery.style.figure import PARTS, TEXEL, WING_JOINTS, FigurePart
 from drapery.style.horse import HORSE_PARTS
 
 MAX_WALK = 10.0
@@ -44,7 +47,7 @@ class Gait:
         """The parts of the figure by name."""
         return FIGURES[self.figure]
 
-    @property
+    @cached_property
     def swing(self) -> float:
         """How far a leg swings to the front and to the back [degrees].
 
@@ -52,91 +55,65 @@ class Gait:
         """
         return math.degrees(math.asin(min(self.speed * self.period / (4 * LEG), 0.9)))
 
-    def poses(self, time: float) -> Mapping[str, Placed]:
-        """Where each part of the figure is, by name."""
-        return _poses(self, time)
+    @cached_property
+    def poses(self) -> BonePoses:
+        """Where each part of the figure is; the wings of a player follow its body."""
+        wings = WING_JOINTS if self.figure == "player" else ()
+        return BonePoses((*self.parts, *wings), self._table)
 
-    def turn(self, time: float) -> float:
-        """How far the right leg is turned backwards [degrees]."""
-        return self.swing * sine_of_turn(float(time) / self.period)
+    def turn(self, times: Any) -> Any:
+        """How far the right leg is turned backwards [degrees] at a time or an array of them [s]."""
+        return self.swing * sine_of_turns(np.asarray(times, float) / self.period)
 
-    def lift(self, time: float) -> float:
-        """Height of the hips above their place at rest [m]; the lower foot stays on the ground.
+    def lift(self, times: Any) -> Any:
+        """Height of the hips above their place at rest [m] at a time or an array of them [s].
 
-        The hip of a leg of length L, whose foot has the half length h, is L cos + h |sin| high.
+        The lower foot stays on the ground: the hip of a leg of length L, whose foot has the half
+        length h, is L cos + h |sin| high.
         """
-        sine, cosine = _sine_cosine(self.turn(time))
+        sine, cosine = _sine_cosine(self.turn(times))
         return LEG * cosine + HALF_FOOT * abs(sine) - LEG
 
     def colliders(self, names: tuple[str, ...]) -> tuple[Collider, ...]:
         """The figure's parts of these names as moving boxes."""
         return tuple(
-            Collider(Box(self.parts[name].centre, self.parts[name].extent), self._path(name))
+            Collider(Box(self.parts[name].centre, self.parts[name].extent), self.poses.path(name))
             for name in names
         )
 
-    def _path(self, name: str) -> Path:
-        return lambda time: Pose(*self.poses(time)[name])
+    def _table(self, times: Array) -> Array:
+        """Place [m] and rotation matrix of each part at T times [s], shape [T, K, 12]."""
+        bones, turn = self.poses.bones, self.turn(times)
+        arms = ARM_SHARE if self.figure == "player" else 1.0
+        shares = {"right_leg": 1.0, "left_leg": -1.0, "right_arm": -arms, "left_arm": arms}
+        degrees = np.zeros((len(times), len(bones)))
+        for name, share in shares.items():
+            degrees[:, bones.index(name)] = share * turn
+        parts = (self.parts["body" if name in WING_JOINTS else name] for name in bones)
+        pivots = np.array([part.pivot for part in parts])
+        return _about_joints(pivots, degrees, self.lift(times))
 
 
-@dataclass(frozen=True, eq=False)
-class WalkPoses(Mapping[str, Placed]):
-    """Where each part of a figure is, computed when it is asked for: pins of a cape need one part.
-
-    parts: of the figure. angles: how far each is turned backwards [degrees]. lift: of all [m].
-    """
-
-    parts: Mapping[str, FigurePart]
-    angles: Mapping[str, float]
-    lift: float
-    _found: dict[str, Placed] = field(default_factory=dict)
-
-    def __getitem__(self, name: str) -> Placed:
-        if name not in self._found:
-            turned = self.angles[name]
-            # Wings follow the body.
-            part = self.parts["body" if name in WING_JOINTS else name]
-            self._found[name] = _about_joint(part, turned, self.lift)
-        return self._found[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.angles)
-
-    def __len__(self) -> int:
-        return len(self.angles)
+def _sine_cosine(degrees: Any) -> tuple[Any, Any]:
+    return sine_of_turns(degrees / 360), sine_of_turns(degrees / 360 + 0.25)
 
 
-@lru_cache(maxsize=4)
-def _poses(gait: Gait, time: float) -> WalkPoses:
-    """Cached, since every part asks for the poses at the beginning and the end of a step."""
-    angle = gait.turn(time)
-    arms = ARM_SHARE if gait.figure == "player" else 1.0
-    angles = {
-        "head": 0.0,
-        "body": 0.0,
-        "right_leg": angle,
-        "left_leg": -angle,
-        "right_arm": -arms * angle,
-        "left_arm": arms * angle,
-    }
-    if gait.figure == "player":
-        angles |= dict.fromkeys(WING_JOINTS, 0.0)
-    return WalkPoses(gait.parts, angles, gait.lift(time))
+def _about_joints(pivots: Array, degrees: Array, lift: Array) -> Array:
+    """Place [m] and rotation matrix of parts that are turned about the x axis, shape [T, K, 12].
 
-
-@lru_cache(maxsize=8)
-def _sine_cosine(degrees: float) -> tuple[float, float]:
-    return sine_of_turn(degrees / 360), sine_of_turn(degrees / 360 + 0.25)
-
-
-def _about_joint(part: FigurePart, degrees: float, lift: float) -> Placed:
-    """A part turned about the x axis, in numbers: arrays of three would take several times as long.
-
-    The bits are those of `rotation_about`.
+    The rotations are equal to those of `rotation_about`.
+    pivots: joint of each part at rest [m], shape [K, 3].
+    degrees: how far each is turned, shape [T, K].
+    lift: of all of them [m], shape [T].
     """
     sine, cosine = _sine_cosine(degrees)
     along = cosine + (1 - cosine)
-    x, y, z = part.pivot.tolist()
-    place = x - along * x, y - (cosine * y - sine * z) + lift, z - (sine * y + cosine * z)
-    rotation = np.array([[along, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
-    return np.array(place), rotation
+    x, y, z = pivots.T
+    table = np.zeros((*degrees.shape, 12))
+    table[..., 0] = x - along * x
+    table[..., 1] = y - (cosine * y - sine * z) + lift[:, None]
+    table[..., 2] = z - (sine * y + cosine * z)
+    table[..., 3] = along
+    table[..., 7], table[..., 8] = cosine, -sine
+    table[..., 10], table[..., 11] = sine, cosine
+    return table

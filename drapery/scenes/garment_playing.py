@@ -5,9 +5,8 @@ pins, boxes and bones. The cloth is of single precision, as that of a banner.
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cached_property
 
 import numpy as np
 
@@ -20,11 +19,12 @@ from drapery.garments.blends import read_blend
 from drapery.garments.model import Garment, GarmentWearer
 from drapery.garments.motions import find_motion
 from drapery.garments.players import WING
+from drapery.garments.poses import BonePoses
 from drapery.mesh import Array
 from drapery.render.scene import RiggedModel, Scene
 from drapery.scenes.dressing import MIDDLE, WORN_STEP, Dressed
 from drapery.scenes.layered import meet_each_other
-from drapery.scenes.player_motion import RAMP, STRIDE, Poses
+from drapery.scenes.player_motion import RAMP, STRIDE
 from drapery.scenes.playing import LiveKernel, LivePanel, make_live_panel, turning_of
 from drapery.scenes.recording import Drape, Schedule
 from drapery.scenes.stager import wind_of
@@ -155,20 +155,15 @@ def _with_figure(panel: LivePanel, played: PlayedGarment, staging: Staging) -> L
     """The panel with a call that poses the wearer."""
     wearer = played.wearer
     assert wearer is not None
-    bones = [*wearer.parts]
-    poses = [wearer.poses(row * played.step) for row in range(sum(played.cycle))]
-    table = np.array([[_flat(each, bone) for bone in bones] for each in poses])
+    bones, poses = [*wearer.parts], wearer.poses
+    table = poses.at(np.arange(sum(played.cycle)) * played.step)
+    table = table[:, [poses.bones.index(bone) for bone in bones]]
     rigs = [model.rig for model in played.figures()]
     light, turned = staging.light, turning_of(staging.settings)
     figure = make_live_figure(rigs, bones, table, MIDDLE, light, *turned)
     call = LiveKernel("pose", pose_figure, (panel.arrays["row"], figure))
     arrays = {"figure": figure.vertices, "figureLight": figure.light}
     return replace(panel, calls={**panel.calls, "pose": call}, arrays={**panel.arrays, **arrays})
-
-
-def _flat(poses: Poses, bone: str) -> Array:
-    place, rotation = poses[bone]
-    return np.concatenate([place, rotation.ravel()])
 
 
 def _period_of(who: GarmentWearer, garment: Garment) -> float:
@@ -181,17 +176,12 @@ def _period_of(who: GarmentWearer, garment: Garment) -> float:
     return find_motion(parts[0][0], garment.folder).period
 
 
-def _repeated(
-    poses: Callable[[float], Poses], step: float, first: int, period: int
-) -> Callable[[float], Poses]:
+def _repeated(poses: BonePoses, step: float, first: int, period: int) -> BonePoses:
     """Poses that repeat after `period` steps from step number `first` on, at whole ticks."""
 
-    @cache
-    def at(tick: int) -> Poses:
-        return poses(tick * step / TICKS)
+    def table(times: Array) -> Array:
+        ticks, start = np.rint(times / step * TICKS), first * TICKS
+        repeated = start + (ticks - start) % (period * TICKS)
+        return poses.at(np.where(ticks < start, ticks, repeated) * step / TICKS)
 
-    def repeated(time: float) -> Poses:
-        tick, start = round(time / step * TICKS), first * TICKS
-        return at(tick if tick < start else start + (tick - start) % (period * TICKS))
-
-    return repeated
+    return BonePoses(poses.bones, table)

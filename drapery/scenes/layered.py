@@ -12,8 +12,10 @@ import numpy as np
 
 from drapery.cloth import Cloth, Collider, Collisions, State, sew
 from drapery.cloth.bending import NO_BENDING
+from drapery.cloth.colliders import TablePath
 from drapery.cloth.collisions import contact_stage
-from drapery.garments.assembly import BonePose, SewnCloth
+from drapery.garments.assembly import SewnCloth
+from drapery.mesh import Array
 
 
 def meet_each_other(cloths: Sequence[SewnCloth]) -> list[int]:
@@ -32,12 +34,12 @@ def common_bones(cloths: Sequence[SewnCloth], bones: Sequence[str]) -> tuple[str
 
 
 def joint_contact(
-    sewn: Sequence[SewnCloth], colliders: Sequence[Collider], body: Callable[[float], BonePose]
+    sewn: Sequence[SewnCloth], colliders: Sequence[Collider], body: TablePath
 ) -> Callable[[Sequence[State], Sequence[State]], list[State]]:
     """The contact of cloths after each step, from their states before and after it; see `Meeting`.
 
     colliders: boxes and planes that stop all of them.
-    body: the pose of the wearer's body at a time [s]. Raises OptionError.
+    body: the path of the wearer's body. Raises OptionError.
     """
     thick = sorted(each.thickness for each in sewn)
     apart = (thick[-2] + thick[-1]) / 2
@@ -48,7 +50,7 @@ def joint_contact(
 
     def stage(before: Sequence[State], after: Sequence[State]) -> list[State]:
         start, end = _joined(before), _joined(after)
-        found = contact.resolve(start, end, _moved(body(start.time), body(end.time)))
+        found = contact.resolve(start, end, _moved(*body.at(np.array([start.time, end.time]))))
         parts = [np.split(part, ends, axis=1) for part in (found.positions, found.velocities)]
         return [
             replace(state, positions=places, velocities=velocities)
@@ -58,11 +60,12 @@ def joint_contact(
     return stage
 
 
-def _moved(before: BonePose, after: BonePose) -> BonePose:
-    """The rotation and the shift [m] that bring a bone from one pose to another."""
+def _moved(before: Array, after: Array) -> tuple[Array, Array]:
+    """The rotation and the shift [m] that bring a bone from one pose [12] to another."""
+    old, new = before[3:].reshape(3, 3), after[3:].reshape(3, 3)
     # einsum adds in a fixed order; BLAS may not.
-    rotation = np.einsum("ij,kj->ik", after[1], before[1])
-    return rotation, after[0] - np.einsum("ij,j->i", rotation, before[0])
+    rotation = np.einsum("ij,kj->ik", new, old)
+    return rotation, after[:3] - np.einsum("ij,j->i", rotation, before[:3])
 
 
 def _passive(cloth: Cloth) -> Cloth:

@@ -6,19 +6,28 @@ before. `walk:0.7,wave:0.3` is the mean of both, by weight.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from drapery.cloth.colliders import rotation_about
 from drapery.garments.blends import read_blend
 from drapery.garments.model import GarmentWearer
-from drapery.garments.motions import KeyPose, Motion, bone_poses, find_motion
+from drapery.garments.motions import (
+    POSE_FIELDS,
+    Motion,
+    bone_table,
+    find_motion,
+    mixed,
+    player_bones,
+    product,
+    turned,
+)
+from drapery.garments.poses import BonePoses
 from drapery.mesh import Array
 from drapery.scenes.gait import ARM_SHARE, Gait
-from drapery.style.figure import TEXEL, FigurePart, Placed, to_metres
+from drapery.style.figure import TEXEL, FigurePart, to_metres
 
 STRIDE = 0.8
 """The period of a stride [s], unless a loop needs a whole number of them."""
@@ -27,19 +36,18 @@ RAMP = 0.5
 EYES = np.array([0.0, 4 * TEXEL, 0.0])
 """The middle of the head from its joint [m]."""
 
-Poses = Mapping[str, Placed]
-PosesAt = Callable[[float], Poses]
-
 
 @dataclass(frozen=True)
 class MotionLayer:
     """One motion of a blend.
 
-    key_pose: its pose at a time [s]. bones: the fields of `KeyPose` that it changes.
-    grounded: whether the lowest leg stays on the ground. weight: its share of a mean.
+    turns: its pose at T times [s], see `KeyPose.turns`: from shape [T] to [T, F, 3].
+    bones: the fields of `KeyPose` that it changes.
+    grounded: whether the lowest leg stays on the ground.
+    weight: its share of a mean.
     """
 
-    key_pose: Callable[[float], KeyPose]
+    turns: Callable[[Array], Array]
     bones: frozenset[str]
     grounded: bool
     weight: float
@@ -47,8 +55,8 @@ class MotionLayer:
 
 def player_poses(
     who: GarmentWearer, folder: Path, parts: Mapping[str, FigurePart], loop: float | None
-) -> PosesAt:
-    """The poses of a player at a time [s].
+) -> BonePoses:
+    """The poses of a player.
 
     folder: of files of poses. parts: its boxes. loop: the length of a loop [s], which a whole
     number of periods of each motion fills; None for none. Raises OptionError.
@@ -57,16 +65,17 @@ def player_poses(
     if not any(who.look):
         return moves
     looks = _at_point if len(who.look) == 3 else _by_angles
+    head = moves.bones.index("head")
 
-    @lru_cache(maxsize=64)
-    def looking(time: float) -> Poses:
-        poses = dict(moves(time))
+    def looking(times: Array) -> Array:
+        table = moves.at(times).copy()
         # The flag of a banner on the head needs time to follow.
-        share = 1.0 if who.head is None else _eased(time)
-        poses["head"] = looks(who.look, poses, parts, share)
-        return poses
+        shares = np.ones(len(times)) if who.head is None else _eased(times)
+        rotations = looks(who.look, table, moves.bones, parts, shares)
+        table[:, head] = _about_joint(table[:, head], parts["head"], rotations)
+        return table
 
-    return looking
+    return BonePoses(moves.bones, looking)
 
 
 def whole_period(period: float, loop: float | None) -> float:
@@ -79,15 +88,16 @@ def walk(who: GarmentWearer, loop: float | None) -> Gait:
     return Gait(who.speed, whole_period(STRIDE, loop), who.kind)
 
 
-def _eased(time: float) -> float:
-    """How far a wearer has taken its pose, 0 to 1."""
-    share = min(time / RAMP, 1.0)
-    return share * share * (3 - 2 * share)
+def _eased(times: Array) -> Array:
+    """How far a wearer has taken its pose at T times [s], 0 to 1, shape [T]."""
+    share = np.minimum(times / RAMP, 1.0)
+    eased: Array = share * share * (3 - 2 * share)
+    return eased
 
 
 def _moves(
     who: GarmentWearer, folder: Path, parts: Mapping[str, FigurePart], loop: float | None
-) -> PosesAt:
+) -> BonePoses:
     if who.motion == "walk":
         return walk(who, loop).poses
     found = read_blend(who.motion, folder)
@@ -95,98 +105,111 @@ def _moves(
     blend = _mean if found.is_mean else _layered
     grounded = max(layers, key=lambda layer: layer.weight).grounded
 
-    @lru_cache(maxsize=64)
-    def poses(time: float) -> Poses:
-        pose, share = blend(layers, time), _eased(time)
-        if share < 1:
-            pose = KeyPose().mixed(pose, share)
-        return bone_poses(pose, parts, grounded)
+    def table(times: Array) -> Array:
+        turns = blend(layers, times) * _eased(times)[:, None, None]
+        return bone_table(turns, parts, grounded)
 
-    return poses
+    return BonePoses(player_bones(parts), table)
 
 
 def _layer(
     name: str, weight: float, who: GarmentWearer, folder: Path, loop: float | None
 ) -> MotionLayer:
     if name == "walk":
-        gait = walk(who, loop)
         limbs = frozenset({"right_leg", "left_leg", "right_arm", "left_arm"})
-        return MotionLayer(lambda time: _walk_pose(gait, time), limbs, True, weight)
+        return MotionLayer(partial(_walk_turns, walk(who, loop)), limbs, True, weight)
     motion = find_motion(name, folder)
     motion = motion.model_copy(update={"period": whole_period(motion.period, loop)})
-    return MotionLayer(motion.key_pose, _turned(motion), motion.grounded, weight)
+    return MotionLayer(motion.turns, _moved_bones(motion), motion.grounded, weight)
 
 
-def _turned(motion: Motion) -> frozenset[str]:
+def _moved_bones(motion: Motion) -> frozenset[str]:
     return frozenset(
-        field for field in KeyPose.model_fields if any(any(getattr(p, field)) for p in motion.poses)
+        field for field in POSE_FIELDS if any(any(getattr(p, field)) for p in motion.poses)
     )
 
 
-def _walk_pose(gait: Gait, time: float) -> KeyPose:
-    leg = gait.turn(time)
+def _walk_turns(gait: Gait, times: Array) -> Array:
+    leg = gait.turn(times)
     arm = ARM_SHARE * leg
+    turns = np.zeros((len(times), len(POSE_FIELDS), 3))
     angles = {"right_leg": leg, "left_leg": -leg, "right_arm": -arm, "left_arm": arm}
-    return KeyPose.model_construct(
-        **{name: getattr(KeyPose(), name) for name in KeyPose.model_fields}
-        | {bone: (angle, 0.0, 0.0) for bone, angle in angles.items()}
-    )
+    for bone, angle in angles.items():
+        turns[:, POSE_FIELDS.index(bone), 0] = angle
+    return turns
 
 
-def _layered(layers: Sequence[MotionLayer], time: float) -> KeyPose:
-    values: dict[str, Any] = {}
-    for number, layer in enumerate(layers):
-        pose = layer.key_pose(time)
-        bones = layer.bones if number else KeyPose.model_fields
-        values |= {name: getattr(pose, name) for name in bones}
-    return KeyPose.model_construct(**values)
+def _layered(layers: Sequence[MotionLayer], times: Array) -> Array:
+    turns = layers[0].turns(times).copy()
+    for layer in layers[1:]:
+        moved = [POSE_FIELDS.index(bone) for bone in layer.bones]
+        turns[:, moved] = layer.turns(times)[:, moved]
+    return turns
 
 
-def _mean(layers: Sequence[MotionLayer], time: float) -> KeyPose:
-    total, whole = 0.0, KeyPose()
+def _mean(layers: Sequence[MotionLayer], times: Array) -> Array:
+    whole: Array = np.zeros((len(times), len(POSE_FIELDS), 3))
+    total = 0.0
     for layer in layers:
         total += layer.weight
         if layer.weight:
-            whole = whole.mixed(layer.key_pose(time), layer.weight / total)
+            whole = mixed(whole, layer.turns(times), layer.weight / total)
     return whole
 
 
 def _by_angles(
-    look: Sequence[float], poses: Poses, parts: Mapping[str, FigurePart], share: float
-) -> Placed:
-    """The head turned to its left and downwards [degrees] beside its own motion."""
-    yaw, pitch = (angle * share for angle in look)
-    turn = np.einsum("ij,jk->ik", rotation_about((0, 1, 0), yaw), rotation_about((1, 0, 0), pitch))
-    return _head(poses, parts, np.einsum("ij,jk->ik", poses["head"][1], turn))
+    look: Sequence[float],
+    table: Array,
+    bones: Sequence[str],
+    parts: Mapping[str, FigurePart],
+    shares: Array,
+) -> Array:
+    """Rotations of the head, turned to its left and downwards [degrees] beside its own motion."""
+    yaw, pitch = (angle * shares for angle in look)
+    turn = product(rotation_about((0, 1, 0), yaw), rotation_about((1, 0, 0), pitch))
+    return product(_rotations_of(table, bones, "head"), turn)
 
 
 def _at_point(
-    look: Sequence[float], poses: Poses, parts: Mapping[str, FigurePart], share: float
-) -> Placed:
-    """The head towards a point [m], at most a right angle aside of the body."""
-    body = poses["body"][1]
-    place, rotation = poses["head"]
-    joint = (rotation * to_metres(np.array(parts["head"].joint))).sum(axis=1) + place
-    away = np.array(look) - joint - (body * EYES).sum(axis=1)
-    x, y, z = (body.T * away).sum(axis=1)
-    flat = float(np.sqrt(x * x + z * z))
-    x, z = (x / flat, z / flat) if flat > 1e-9 else (0.0, 1.0)
-    if z < 0:
-        x, z = (1.0 if x > 0 else -1.0), 0.0
-    ahead = _unit(np.array([x * flat, y, z * flat]) if flat > 1e-9 else np.array([0.0, y, 1e-9]))
+    look: Sequence[float],
+    table: Array,
+    bones: Sequence[str],
+    parts: Mapping[str, FigurePart],
+    shares: Array,
+) -> Array:
+    """Rotations of the head towards a point [m], at most a right angle aside of the body."""
+    body, head = (_rotations_of(table, bones, name) for name in ("body", "head"))
+    joint = turned(head, to_metres(np.array(parts["head"].joint)))
+    joint = joint + table[:, bones.index("head"), :3]
+    away = np.array(look) - joint - turned(body, EYES)
+    x, y, z = turned(np.swapaxes(body, 1, 2), away).T
+    flat = np.sqrt(x * x + z * z)
+    level = np.where(flat > 1e-9, flat, 1.0)
+    across, front = x / level, np.where(flat > 1e-9, z / level, 1.0)
+    aside = front < 0
+    across = np.where(aside, np.where(across > 0, 1.0, -1.0), across)
+    front = np.where(aside, 0.0, front)
+    zero = np.zeros_like(y)
+    above = np.stack([zero, y, zero + 1e-9], axis=-1)
+    ahead = np.stack([across * flat, y, front * flat], axis=-1)
+    ahead = _unit(np.where((flat > 1e-9)[:, None], ahead, above))
+    share = shares[:, None]
     ahead = _unit(share * ahead + (1 - share) * np.array([0.0, 0.0, 1.0]))
-    right = _unit(np.array([ahead[2], 0.0, -ahead[0]]))  # up x ahead
-    turn = np.stack([right, np.cross(ahead, right), ahead], axis=-1)
-    return _head(poses, parts, np.einsum("ij,jk->ik", body, turn))
+    right = _unit(np.stack([ahead[:, 2], zero, -ahead[:, 0]], axis=-1))  # up x ahead
+    return product(body, np.stack([right, np.cross(ahead, right), ahead], axis=-1))
 
 
-def _head(poses: Poses, parts: Mapping[str, FigurePart], rotation: Array) -> Placed:
-    """The head in another rotation; its joint stays where it is."""
-    joint = to_metres(np.array(parts["head"].joint))
-    place, old = poses["head"]
-    return place + (old * joint).sum(axis=1) - (rotation * joint).sum(axis=1), rotation
+def _rotations_of(table: Array, bones: Sequence[str], bone: str) -> Array:
+    return table[:, bones.index(bone), 3:].reshape(-1, 3, 3)
 
 
-def _unit(vector: Array) -> Array:
-    unit: Array = vector / np.sqrt((vector * vector).sum())
-    return unit
+def _about_joint(rows: Array, part: FigurePart, rotations: Array) -> Array:
+    """Poses [T, 12] of a bone in other rotations [T, 3, 3]; its joint stays where it is."""
+    joint, own = to_metres(np.array(part.joint)), rows[:, 3:].reshape(-1, 3, 3)
+    places = rows[:, :3] + turned(own, joint) - turned(rotations, joint)
+    return np.concatenate([places, rotations.reshape(-1, 9)], axis=1)
+
+
+def _unit(vectors: Array) -> Array:
+    units: Array = vectors / np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
+    return units

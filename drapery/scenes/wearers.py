@@ -10,15 +10,15 @@ import numpy as np
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
 from drapery.banner.packs.texture_ids import texture_file
-from drapery.cloth.colliders import Box, Collider, Pose
-from drapery.cloth.colliders import Path as PosePathOf
+from drapery.cloth.colliders import Box, Collider, TablePath
 from drapery.errors import OptionError
 from drapery.garments.model import Garment, GarmentWearer
+from drapery.garments.poses import BonePoses
 from drapery.garments.profiles import Profile, profile_of
 from drapery.garments.textures import read_texture
 from drapery.mesh import Mesh
 from drapery.render.scene import Material, Model, Rig, TextureLayer
-from drapery.scenes.player_motion import Poses, player_poses, walk
+from drapery.scenes.player_motion import player_poses, walk
 from drapery.style.boxes import box_mesh, upright
 from drapery.style.equipment import (
     ARMOR_SOLID,
@@ -29,23 +29,24 @@ from drapery.style.equipment import (
     pole_solids,
     shield_in_hand,
 )
-from drapery.style.figure import SKINS, TEXEL, FigurePart
+from drapery.style.figure import SKINS, TEXEL, FigurePart, Placed
 from drapery.style.horse import HORSE_BOXES, HORSE_PARTS, SHEET
 from drapery.style.rig import make_rig, rigged_model
 from drapery.style.skins import Skin, read_skin
 
+Poses = Mapping[str, Placed]
 Draw = Callable[[Poses, tuple[str, ...] | None], tuple[Model, ...]]
 
 
 @dataclass(frozen=True, eq=False)
 class Wearer:
-    """A figure that moves. parts: its boxes by bone. poses: of all bones at a time [s].
+    """A figure that moves. parts: its boxes by bone. poses: of all bones.
     draw: its models in poses, of some bones or all. equipment: what it holds, and its armour.
     growth: how far the second layer of its skin stands off its bones [texels]. armor: the same of
     its armour, which stops only cloth that names it."""
 
     parts: Mapping[str, FigurePart]
-    poses: Callable[[float], Poses]
+    poses: BonePoses
     draw: Draw
     equipment: tuple[Equipment, ...] = ()
     growth: Mapping[str, float] = field(default_factory=dict)
@@ -75,31 +76,28 @@ class Wearer:
             name: max(self.growth.get(name, 0.0), armor.get(name, 0.0)) for name in self.parts
         }
         poles = (
-            Collider(Box((low + high) / 2, high - low), self._path("head"))
+            Collider(Box((low + high) / 2, high - low), self.poses.path("head"))
             for name, (low, high) in pole_solids().items()
             if bones is not None and name in bones
         )
         body = (
             Collider(
                 Box(part.centre, part.extent + 2 * growth[name] * TEXEL),
-                self._path(name),
+                self.poses.path(name),
             )
             for name, part in self.parts.items()
             if bones is None or name in bones
         )
         return *body, *poles
 
-    def held_boxes(self) -> list[tuple[Box, PosePathOf]]:
+    def held_boxes(self) -> list[tuple[Box, TablePath]]:
         """What it holds that stops cloth: boxes at rest, and their paths."""
         found = []
         for each in self.equipment:
             if each.is_solid:
                 low, high = each.mesh.positions.min(axis=0), each.mesh.positions.max(axis=0)
-                found.append((Box((low + high) / 2, high - low), self._path(each.bone)))
+                found.append((Box((low + high) / 2, high - low), self.poses.path(each.bone)))
         return found
-
-    def _path(self, name: str) -> PosePathOf:
-        return lambda time: Pose(*self.poses(time)[name])
 
 
 def wearer_of(garment: Garment, packs: Packs, period: float | None = None) -> Wearer | None:

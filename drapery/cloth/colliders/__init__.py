@@ -8,7 +8,15 @@ in seconds, angles in degrees.
 from drapery.cloth.colliders.check import check_collider
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.meshes import height_collider, load_mesh, mesh_collider
-from drapery.cloth.colliders.pose import Path, Pose, rotation_about, still, straight, swinging
+from drapery.cloth.colliders.pose import (
+    Path,
+    Pose,
+    TablePath,
+    rotation_about,
+    still,
+    straight,
+    swinging,
+)
 from drapery.cloth.colliders.shapes import (
     Box,
     Capsule,
@@ -30,6 +38,7 @@ __all__ = [
     "Shape",
     "SignedDistance",
     "Sphere",
+    "TablePath",
     "TriangleMesh",
     "Voxels",
     "check_collider",

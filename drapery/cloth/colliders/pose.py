@@ -25,6 +25,29 @@ class Pose:
 Path = Callable[[float], Pose]
 """The pose at a time [s]; it is called for the start and the end of every step."""
 
+
+@dataclass(frozen=True, eq=False)
+class TablePath:
+    """The `Path` of one of K bodies that move together, which contact asks for many times at once.
+
+    table: place [m] and rotation matrix of each body at T times [s]: from shape [T] to [T, K, 12].
+    body: its number.
+    """
+
+    table: Callable[[Array], Array]
+    body: int
+
+    def __call__(self, time: float) -> Pose:
+        """The pose at one time [s]."""
+        row = self.at(np.array([time]))[0]
+        return Pose(row[:3], row[3:].reshape(3, 3))
+
+    def at(self, times: Array) -> Array:
+        """Place [m] and rotation matrix at T times [s], shape [T, 12]."""
+        rows: Array = self.table(times)[:, self.body]
+        return rows
+
+
 STILL = Pose()
 
 
@@ -56,16 +79,20 @@ def swinging(pivot: tuple[float, float, float], swing: float, period: float, pha
     return pose
 
 
-def rotation_about(axis: tuple[float, float, float], angle: float) -> Array:
-    """Rotation matrix [3, 3] about an axis by an angle [degrees], by Rodrigues' formula.
+def rotation_about(axis: tuple[float, float, float], angle: float | Array) -> Array:
+    """Rotation matrix about an axis, by Rodrigues' formula.
 
-    Raises OptionError for an axis without a direction.
+    axis: in any length.
+    angle: [degrees], a number or an array of any shape [...].
+    Returns one matrix for each angle, shape [..., 3, 3]. Raises OptionError for an axis without a
+    direction.
     """
     length = float(np.sqrt(np.square(axis).sum()))
     if not (np.isfinite(length) and length > 0):
         raise OptionError(f"axis {axis} has no direction; use finite numbers that are not all 0")
     x, y, z = unit = np.asarray(axis, float) / length
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    sine, cosine = sine_of_turns(angle / 360), sine_of_turns(angle / 360 + 0.25)
+    turns = np.asarray(angle, float)[..., None, None] / 360
+    sine, cosine = sine_of_turns(turns), sine_of_turns(turns + 0.25)
     rotation: Array = cosine * np.eye(3) + sine * cross + (1 - cosine) * np.outer(unit, unit)
     return rotation

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.colliders.collider import Collider
-from drapery.cloth.colliders.pose import Path, Pose, still
+from drapery.cloth.colliders.pose import Path, Pose, TablePath, still
 from drapery.cloth.colliders.shapes import Box, Plane, Shape
 from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
+from drapery.cloth.lanes import time_blocks
 from drapery.jit import kernel
 from drapery.mesh import Array
 
@@ -81,23 +82,32 @@ class BoxColliders:
         where no box moves."""
         if all(path is still for path in self.paths):
             return self.contact.ends[None]
-        return np.stack([self._poses_at(time) for time in times])
+        parts = time_blocks(np.array(times, float))
+        return np.concatenate([self._poses_at(part) for part in parts])
 
     def step(self, start: float, end: float) -> BoxContact:
         """The contact in a step from one time to another [s]."""
         poses = self.poses((start, end))
         return self.contact._replace(starts=poses[0], ends=poses[-1])
 
-    def _poses_at(self, time: float) -> Array:
-        poses = self.contact.ends.copy()
-        for row, path in zip(poses, self.paths, strict=True):
+    def _poses_at(self, times: Array) -> Array:
+        poses = np.repeat(self.contact.ends[None], len(times), axis=0)
+        for number, (path, rest) in enumerate(zip(self.paths, self.contact.ends, strict=True)):
             if path is not still:
-                at = path(time)
-                turn, own = np.asarray(at.rotation, float), row[3:].reshape(3, 3)
+                moved = _path_at(path, times)
+                turn, own = moved[:, 3:].reshape(-1, 3, 3), rest[3:].reshape(3, 3)
                 # Sums in a fixed order; BLAS may not add in one.
-                row[:3] = (turn * row[:3]).sum(axis=1) + at.position
-                row[3:] = (turn[:, :, None] * own).sum(axis=1).ravel()
+                poses[:, number, :3] = (turn * rest[:3]).sum(axis=2) + moved[:, :3]
+                poses[:, number, 3:] = (turn[..., None] * own).sum(axis=2).reshape(-1, 9)
         return poses
+
+
+def _path_at(path: Path, times: Array) -> Array:
+    """Place [m] and rotation matrix of a path at T times [s], shape [T, 12]."""
+    if isinstance(path, TablePath):
+        return path.at(times)
+    poses = (path(float(time)) for time in times)
+    return np.array([np.append(pose.position, pose.rotation) for pose in poses], float)
 
 
 NOTHING = BoxColliders(NO_CONTACT, ())
