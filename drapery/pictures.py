@@ -66,18 +66,21 @@ def iter_frames(
     *,
     seconds: float = 4.0,
     fps: float = 20.0,
+    on_moment: Callable[[int, int], object] | None = None,
     **options: Unpack[Options],
 ) -> Iterator[Frame]:
     """The frames of `animate`, each drawn when the iterator reaches it.
 
-    All arguments are checked, and all packs opened, before this returns.
+    All arguments are checked, all packs opened, and all cloth moved, before this returns.
+    on_moment: called at each moment of the cloth's motion with its number and the number of the
+    last one; it may raise to end the work.
     Raises the errors of `animate`.
     """
     from drapery.scenes.subjects import loop
 
     design, chosen = _checked(banner, settings, options, "loop")
     packs = open_packs(chosen.packs, format=chosen.format)
-    scenes = loop(design, packs, chosen, frame_count(seconds, fps), fps)
+    scenes = loop(design, packs, chosen, frame_count(seconds, fps), fps, on_moment)
     return draw_scenes(scenes, packs, chosen, loop=True)
 
 
@@ -89,14 +92,15 @@ def save_model(
     seconds: float = 4.0,
     fps: float = 20.0,
     progress: Callable[[int, int], object] | None = None,
+    on_moment: Callable[[int, int], object] | None = None,
     **options: Unpack[Options],
 ) -> None:
     """Write a banner as a 3-D file: a GLB waves, the other formats hold one pose.
 
     banner, settings, options: see `draw`; the ground is not written.
     seconds: length of the loop [s]; 0 for one pose. fps: its frames per second.
-    progress: called with the number of finished frames and of all, often while the cloth moves; it
-    may raise to end the work, and then there is no file.
+    progress: called with the number of finished frames and of all. on_moment: see `iter_frames`.
+    Both may raise to end the work, and then there is no file.
     Raises DesignError if `banner` is something else, OptionError, PackError or OutputError.
     """
     from drapery.render.encode import check_target
@@ -109,7 +113,7 @@ def save_model(
     packs = open_packs(chosen.packs, format=chosen.format)
     if moves:
         tick, total = progress or (lambda done, total: None), frame_count(seconds, fps)
-        scenes = loop(design, packs, chosen, total, fps, lambda: tick(0, total))
+        scenes = loop(design, packs, chosen, total, fps, on_moment)
         save_scenes(_counted(scenes, total, tick), path, fps=fps)
     else:
         save_scenes(still(design, packs, chosen), path)

@@ -71,11 +71,15 @@ def test_cloths_that_meet_are_resolved_after_each_step() -> None:
 
 
 def test_each_moment_is_told_and_may_end_the_work() -> None:
-    seen: list[None] = []
-    record([drape(), drape()], Schedule.at([0.1], STEP), on_moment=lambda: seen.append(None))
-    assert len(seen) == 7
+    seen: list[tuple[int, int]] = []
 
-    def stop() -> None:
+    def told(number: int, last: int) -> None:
+        seen.append((number, last))
+
+    record([drape(), drape()], Schedule.at([0.1], STEP), on_moment=told)
+    assert seen == [(number, 6) for number in range(7)]
+
+    def stop(number: int, last: int) -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

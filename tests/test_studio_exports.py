@@ -155,6 +155,7 @@ def test_a_thread_makes_it_and_reports_progress(tmp_path: Path) -> None:
     work.start()
     assert work.wait(120)
     assert (work.state, work.done, work.total, work.fault) == ("done", 5, 5, "")
+    assert (work.moved, work.share) == (1.0, 1.0)
     assert work.path.read_bytes()[:6] == b"GIF89a"
 
 
@@ -169,6 +170,31 @@ def test_a_thread_stops_and_leaves_nothing(tmp_path: Path) -> None:
     assert work.state == "stopped" and 2 <= work.done < work.total
     assert [*tmp_path.iterdir()] == []
     assert not [thread for thread in threading.enumerate() if thread.name == "export"]
+
+
+@pytest.mark.parametrize("kind", ["apng", "glb"])
+def test_the_motion_of_a_loop_is_told_and_can_be_stopped(kind: str, tmp_path: Path) -> None:
+    """It takes longer than the frames of a small picture, and comes before the first of them."""
+    wanted, moments, frames = request_of(kind), [], []
+
+    def told(number: int, last: int) -> None:
+        moments.append(number / last)
+
+    def progress(done: int, total: int) -> None:
+        frames.append(done)
+        assert done == 0 or moments[-1] == 1.0
+
+    make(wanted, tmp_path / file_name(wanted), progress, told)
+    assert moments == sorted(moments) and moments[0] == 0.0 and len(moments) > max(frames) > 0
+
+    def stop(number: int, last: int) -> None:
+        if number > last // 2:
+            raise exports.StoppedError("stopped")
+
+    (tmp_path / file_name(wanted)).unlink()
+    with pytest.raises(exports.StoppedError):
+        make(wanted, tmp_path / file_name(wanted), None, stop)
+    assert [*tmp_path.iterdir()] == []
 
 
 def test_a_fault_is_one_line(tmp_path: Path) -> None:

@@ -411,7 +411,7 @@ def test_a_scene_comes_round_again() -> None:
     again = [player.step() for _ in range(5)]
     for one, other in zip(first, again, strict=True):
         assert one.panes[0].scene is other.panes[0].scene
-    pictures = islice(player.show.play(player._clip, lambda: None), 5)
+    pictures = islice(player.show.play(player._clip, lambda *moment: None), 5)
     for shown, picture in zip(first, pictures, strict=True):
         parts = picture.pictures
         for pane, scene in zip(shown.panes, parts, strict=True):

@@ -175,7 +175,7 @@ def test_a_file_without_wind_is_exported_without_wind(page: Page) -> None:
 def test_an_animation_shows_progress_and_can_be_stopped(page: Page, downloads: Path) -> None:
     page.tab("export")
     page.fill("export", "File", "apng")
-    page.fill("export", "Width", "240")  # frames that come soon, but not all of them
+    page.fill("export", "Width", "240")  # enough frames that it can be stopped before the last
     page.fill("export", "Height", "180")
     page.fill("export", "Seconds", "40")
     wait_until(lambda: "--seconds 40" in page.text("#as-command"))

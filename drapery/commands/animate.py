@@ -39,7 +39,9 @@ def run(
     behind = None if matte is None else background_colour(matte)[:3]
     check_target(out, "loop")
     with compile_notice():
-        drawn = iter_frames(o.design_of(words), settings, seconds=seconds, fps=fps)
+        design = o.design_of(words)
+        with progress("moving the cloth") as moved:
+            drawn = iter_frames(design, settings, seconds=seconds, fps=fps, on_moment=moved)
         total = frame_count(seconds, fps)
         with progress("frames", total) as tick:
             save_animation(drawn, fps, out, matte=behind, total=total, progress=tick)

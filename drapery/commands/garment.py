@@ -105,9 +105,11 @@ def write_garment(
             draw(garment, settings).save(out)
     else:
         total = frame_count(seconds, fps)
-        with compile_notice(), progress("frames", total) as tick:
-            frames = iter_frames(garment, settings, seconds=seconds, fps=fps)
-            save_animation(frames, fps, out, total=total, progress=tick)
+        with compile_notice():
+            with progress("moving the cloth") as moved:
+                frames = iter_frames(garment, settings, seconds=seconds, fps=fps, on_moment=moved)
+            with progress("frames", total) as tick:
+                save_animation(frames, fps, out, total=total, progress=tick)
 
 
 def _show_list() -> None:

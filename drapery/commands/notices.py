@@ -71,11 +71,11 @@ def _start_beside(module: str) -> None:
 
 
 @contextmanager
-def progress(what: str, total: int) -> Iterator[Callable[[int, int | None], None]]:
+def progress(what: str, total: int | None = None) -> Iterator[Callable[[int, int | None], None]]:
     """A bar with count, rate and time left; the callable takes the number done and the total."""
     with bar_of(what) as bar:
         task = bar.add_task(what, total=total)
-        yield lambda done, _total: bar.update(task, completed=done)
+        yield lambda done, every: bar.update(task, completed=done, total=total or every)
 
 
 def bar_of(what: str, *more: str) -> "Progress":

@@ -184,7 +184,7 @@ class Dressed:
         )
 
     def record(
-        self, at: Schedule, on_moment: Callable[[], object] | None = None
+        self, at: Schedule, on_moment: Callable[[int, int], object] | None = None
     ) -> Sequence[Array]:
         """Where each cloth is at the moments of a schedule [m], each [F, N, 3].
 

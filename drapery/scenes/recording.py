@@ -104,20 +104,22 @@ def record(
     drapes: Sequence[Drape],
     at: Schedule,
     meeting: Meeting | None = None,
-    on_moment: Callable[[], object] | None = None,
+    on_moment: Callable[[int, int], object] | None = None,
 ) -> list[Array]:
     """Where each cloth is at the moments of a schedule [m], each [F, N, 3].
 
-    on_moment: called at each moment from the start on; it may raise to end the simulation.
+    on_moment: called at each moment from the start on with its number and the number of the last
+    one; it may raise to end the simulation.
     Raises OptionError.
     """
     if not drapes:
         return []
     wanted, places = frozenset(at.moments), {}
     motion = _motion(drapes, at, meeting)
-    for number, states in enumerate(islice(motion, max(wanted) + 1)):
+    last = max(wanted)
+    for number, states in enumerate(islice(motion, last + 1)):
         if on_moment is not None:
-            on_moment()
+            on_moment(number, last)
         if number in wanted:
             places[number] = [state.positions[0] for state in states]
     motions = zip(*(places[number] for number in at.moments), strict=True)

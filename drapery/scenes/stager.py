@@ -205,7 +205,7 @@ class StagedBody:
         return [style.move(self._sheet(panel, motion)).positions for panel, motion in panels]
 
     def record(
-        self, at: Schedule, on_moment: Callable[[], object] | None = None
+        self, at: Schedule, on_moment: Callable[[int, int], object] | None = None
     ) -> Sequence[Array]:
         """Where the cloth of each panel is at the moments of a schedule [m], each [F, N, 3].
 

@@ -35,7 +35,7 @@ class StagedSubject(Protocol):
         """The share of a step by which steps may be longer, see `Schedule.still`."""
 
     def record(
-        self, at: Schedule, on_moment: Callable[[], object] | None = None
+        self, at: Schedule, on_moment: Callable[[int, int], object] | None = None
     ) -> Sequence[Array]:
         """Where each of its cloths is at the moments of a schedule [m], each [F, N, 3].
 
@@ -66,12 +66,11 @@ def subject_of(
 
 
 def stage(
-    subject: StagedSubject, at: Schedule, on_moment: Callable[[], object] | None = None
+    subject: StagedSubject, at: Schedule, on_moment: Callable[[int, int], object] | None = None
 ) -> Iterator[Scene]:
     """The scenes of a schedule, when all cloth has moved.
 
-    on_moment: called at each simulated moment; it may raise to end the simulation.
-    Raises OptionError or PackError.
+    on_moment: see `recording.record`. Raises OptionError or PackError.
     """
     return subject.scenes(subject.record(at, on_moment), at)
 
@@ -91,7 +90,7 @@ def loop(
     settings: Settings,
     count: int,
     fps: float,
-    on_moment: Callable[[], object] | None = None,
+    on_moment: Callable[[int, int], object] | None = None,
 ) -> Iterator[Scene]:
     """`count` scenes of a seamless loop: the last is followed by the first.
 

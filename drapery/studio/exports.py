@@ -46,11 +46,17 @@ class StoppedError(DraperyError):
     """The user stopped the export."""
 
 
-def make(request: ExportRequest, path: Path, progress: Progress | None = None) -> None:
+def make(
+    request: ExportRequest,
+    path: Path,
+    progress: Progress | None = None,
+    on_moment: Progress | None = None,
+) -> None:
     """Write the file, as the command of `snippets.as_command` does.
 
-    If progress raises, the work stops and no file remains. Raises OptionError, PackError,
-    BackendError or OutputError.
+    on_moment: called at each moment of the motion of a loop's cloth with its number and that of the
+    last one. If it or progress raises, the work stops and no file remains.
+    Raises OptionError, PackError, BackendError or OutputError.
     """
     from drapery import save_model
     from drapery.render import save_animation
@@ -59,11 +65,11 @@ def make(request: ExportRequest, path: Path, progress: Progress | None = None) -
     tick, total, fps = progress or (lambda done, total: None), count_frames(request), request.fps
     tick(0, total)
     if request.kind in LOOPS:
-        frames = _frames(request)
+        frames = _frames(request, on_moment)
         save_animation(frames, fps, path, progress=lambda done, _: tick(done, total))
     elif request.kind in MODELS:
         given = subject_of(request), path, options_for(request)
-        save_model(*given, seconds=request.seconds, fps=fps, progress=tick)
+        save_model(*given, seconds=request.seconds, fps=fps, progress=tick, on_moment=on_moment)
         tick(total, total)
     else:
         drawn = _drawn(request)
@@ -89,7 +95,7 @@ def check(request: ExportRequest) -> None:
         )
 
 
-def _frames(request: ExportRequest) -> Iterator[Frame]:
+def _frames(request: ExportRequest, on_moment: Progress | None = None) -> Iterator[Frame]:
     """The frames of a loop, or the last one of a scene for a picture."""
     from drapery import iter_frames
     from drapery.scenes import find_scene, scene_frames
@@ -97,7 +103,8 @@ def _frames(request: ExportRequest) -> Iterator[Frame]:
     settings, chosen = options_for(request), scene_of(request)
     if chosen is None:
         subject = subject_of(request)
-        return iter_frames(subject, settings, seconds=request.seconds, fps=request.fps)
+        seconds, fps = request.seconds, request.fps
+        return iter_frames(subject, settings, seconds=seconds, fps=fps, on_moment=on_moment)
     scene = find_scene(chosen.name)
     clip, parameters = scene_clip(request, scene), scene.parameters(dict(chosen.words))
     backend = settings.backend if isinstance(settings.backend, str) else "auto"
@@ -129,6 +136,7 @@ class Export:
     """One export: running, done, failed or stopped.
 
     path: the place of the file once `state` is "done". fault: the reason if `state` is "failed".
+    moved: how much of a loop's motion is simulated, which comes before its frames, 0 to 1.
     warnings: one line each, as the command writes them.
     """
 
@@ -137,6 +145,7 @@ class Export:
     name: str
     done: int = 0
     total: int = 1
+    moved: float = 0.0
     state: str = "running"
     fault: str = ""
     warnings: tuple[str, ...] = ()
@@ -148,8 +157,14 @@ class Export:
         self._thread = threading.Thread(target=self._run, name="export", daemon=True)
         self._thread.start()
 
+    @property
+    def share(self) -> float:
+        """How much of the work is done, 0 to 1: the motion of a loop is the first half."""
+        drawn = self.done / self.total
+        return (self.moved + drawn) / 2 if self.moved else drawn
+
     def stop(self) -> None:
-        """Stop at the next frame; removes what has been written."""
+        """Stop at the next frame or moment; removes what has been written."""
         self._stop.set()
 
     def wait(self, seconds: float) -> bool:
@@ -160,6 +175,13 @@ class Export:
 
     def _progress(self, done: int, total: int) -> None:
         self.done, self.total = done, total
+        self._check_stop()
+
+    def _move(self, number: int, last: int) -> None:
+        self.moved = number / max(last, 1)
+        self._check_stop()
+
+    def _check_stop(self) -> None:
         if self._stop.is_set():
             raise StoppedError("the export was stopped")
 
@@ -167,7 +189,7 @@ class Export:
         _lower_priority()
         try:
             with collected_warnings() as warnings:
-                make(self.request, self.path, self._progress)
+                make(self.request, self.path, self._progress, self._move)
             self.warnings = tuple(dict.fromkeys(warnings))
         except StoppedError:
             self.state = "stopped"

@@ -39,7 +39,7 @@ class Show:
 
     name: str
     clip: Clip
-    play: Callable[[Clip, Callable[[], object]], Iterator[Picture]]
+    play: Callable[[Clip, Callable[[int, int], object]], Iterator[Picture]]
     first: Callable[[Clip], Picture] | None = None
 
 
@@ -53,7 +53,7 @@ def scene_show(scene: SceneChoice) -> Show:
 def garment_show(garment: Garment, packs: Packs, settings: Settings) -> Show:
     """A garment: first at rest, then its seamless loop."""
 
-    def play(clip: Clip, on_moment: Callable[[], object]) -> Iterator[Picture]:
+    def play(clip: Clip, on_moment: Callable[[int, int], object]) -> Iterator[Picture]:
         settings = _sized(clip)
         return loop(garment, packs, settings, clip.count, clip.fps, on_moment)
 
@@ -122,7 +122,7 @@ class Player:
         except Exception as error:  # `step` raises it
             self._prepared.set_exception(error)
 
-    def _check_open(self) -> None:
+    def _check_open(self, _number: int, _last: int) -> None:
         if self._closed.is_set():
             raise _ClosedError
 

@@ -120,7 +120,7 @@ class _ExportForm:
             self._finish(work)
 
     def _show_progress(self, work: Export) -> None:
-        set_props(self._bar, {"value": work.done / work.total})
+        set_props(self._bar, {"value": work.share})
         still = translated("drawing" if work.total == 1 else "moving the cloth")
         frames = translated("{done} of {total} frames").format(done=work.done, total=work.total)
         self._words.set_text(frames if work.done else still)
