@@ -6,6 +6,8 @@ optimises as a whole, so its own code is never run. Here a function that an entr
 reaches keeps its text alone, if it is one of Drapery's kernels or a part of numba. Everything else
 is compiled as numba does it: entry points, since Python or an address may call them too, and
 functions of others.
+numba also compiles a function again for each literal, and for each width of an integer, that a
+kernel calls it with. Here a kernel has one compilation for all of them.
 No garbage is collected meanwhile: a compilation makes millions of objects that live to its end.
 
 Importing this module changes the code generator of this process. The import raises AttributeError
@@ -14,15 +16,19 @@ those that are open belongs to one thread at a time.
 """
 
 import gc
+from collections.abc import Iterator
 from typing import Any
 
-from numba.core import codegen, event
+from numba.core import codegen, dispatcher, event, types
 from numba.core.registry import cpu_target
 
+_Dispatcher: Any = dispatcher.Dispatcher
+_types: Any = types
 _codegen: Any = codegen
 _event: Any = event
 _generator: Any = cpu_target.target_context.codegen()
 _set_environment = _generator.set_env
+_call_template = _Dispatcher.get_call_template
 
 _open: list[Any] = []
 """numba's objects of the functions that are being compiled, the outermost first."""
@@ -40,31 +46,42 @@ def _is_text() -> Any:
 
 
 class KernelLibrary(_codegen.JITCodeLibrary):  # type: ignore[misc]
-    """The code of one function, or its text."""
+    """The code of one function, or its text.
+
+    numba links all that a function reaches into each function on the way there. A text stays alone
+    here: what has code links all texts that it reaches, each once.
+    """
 
     def __init__(self, generator: Any, name: str) -> None:
         super().__init__(generator, name)
         self.is_text = _is_text()
 
+    def finalize(self) -> None:
+        if self.is_text:
+            self._finalized = True
+            return
+        self._linking_libraries = list(_reached(self, set()))
+        super().finalize()
+
     def _optimize_functions(self, module: Any) -> None:
         if not self.is_text:
             super()._optimize_functions(module)
 
-    def _optimize_final_module(self) -> None:
-        if not self.is_text:
-            super()._optimize_final_module()
-
     def _finalize_final_module(self) -> None:
-        # What comes from the cache of kernels has its code already.
-        if self.is_text and not getattr(self, "_compiled_object", None):
-            self._finalize_dynamic_globals()
-            self._verify_declare_only_symbols()
-            self._finalized = True
-            return
         super()._finalize_final_module()
         for variable in self._final_module.global_variables:
             if variable.name in _environments:
                 _set_environment(variable.name, _environments[variable.name])
+
+
+def _reached(library: Any, seen: set[Any]) -> Iterator[Any]:
+    """The libraries that a library links, and those that texts among them link, each once."""
+    for each in library._linking_libraries:
+        if each not in seen:
+            seen.add(each)
+            yield each
+            if getattr(each, "is_text", False):
+                yield from _reached(each, seen)
 
 
 def _set_environment_later(name: str, environment: Any) -> None:
@@ -73,6 +90,23 @@ def _set_environment_later(name: str, environment: Any) -> None:
         _environments[name] = environment
     else:
         _set_environment(name, environment)
+
+
+def _plain(kind: Any) -> Any:
+    """The type of a value for whatever value it is: bool or a 64-bit integer, also in a tuple."""
+    if isinstance(kind, _types.BaseAnonymousTuple):
+        return _types.Tuple.from_types([_plain(each) for each in kind])
+    if isinstance(kind, _types.Boolean):
+        return _types.boolean
+    return _types.int64 if isinstance(kind, _types.Integer) and kind.signed else kind
+
+
+def _plain_call_template(function: Any, arguments: Any, named: Any) -> Any:
+    """numba's, but kernels are called with plain types."""
+    if hasattr(function, "is_inner"):
+        arguments = tuple(map(_plain, arguments))
+        named = {name: _plain(kind) for name, kind in named.items()}
+    return _call_template(function, arguments, named)
 
 
 class _Compilations(_event.Listener):  # type: ignore[misc]
@@ -96,8 +130,7 @@ class _Compilations(_event.Listener):  # type: ignore[misc]
 
 def _check_numba() -> None:
     """Raises AttributeError if numba's code generator is not made of the parts that change here."""
-    parts = ["_optimize_functions", "_optimize_final_module", "_finalize_final_module"]
-    parts += ["_finalize_dynamic_globals", "_verify_declare_only_symbols"]
+    parts = ["finalize", "_optimize_functions", "_finalize_final_module", "_get_module_for_linking"]
     for part in parts:
         getattr(_codegen.JITCodeLibrary, part)
     if _generator._library_class is not _codegen.JITCodeLibrary:
@@ -107,4 +140,5 @@ def _check_numba() -> None:
 _check_numba()
 _generator._library_class = KernelLibrary
 _generator.set_env = _set_environment_later
+_Dispatcher.get_call_template = _plain_call_template
 _event.register("numba:compile", _Compilations())

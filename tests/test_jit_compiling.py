@@ -51,11 +51,32 @@ def checks(number: int) -> int:
     return checked(number)
 
 
+@kernel
+def chosen(row: Any, at: Any, ends: Any, whole: Any) -> Any:
+    return row[at] + row[ends[1]] if whole else row[at]
+
+
+@entry_point
+def chooses(row: Any) -> Any:
+    last = len(row) - 1
+    total = chosen(row, 1, (0, 2), True) + chosen(row, last, (0, last - 1), row[last] > 0)
+    return total + chosen(row, np.int32(2), (np.int32(0), np.int32(1)), False)
+
+
 @pytest.fixture(autouse=True)
 def compiled_here(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is read from the cache of kernels, so that each test compiles."""
     monkeypatch.setattr("drapery.jit_cache.cache_on_disk", lambda dispatcher, _: dispatcher)
-    for function in (last_times_five, with_sum, one_more, outermost, checked, checks):
+    for function in (
+        last_times_five,
+        with_sum,
+        one_more,
+        outermost,
+        checked,
+        checks,
+        chosen,
+        chooses,
+    ):
         monkeypatch.setattr(function, "_made", None)
 
 
@@ -80,6 +101,18 @@ def test_an_entry_point_that_a_kernel_calls_first_has_code_of_its_own() -> None:
 def test_an_entry_point_that_python_calls_first_is_called_by_others() -> None:
     assert with_sum(ROW) == 30
     assert outermost(ROW) == 51
+
+
+def test_a_text_is_linked_once_where_it_is_used() -> None:
+    assert outermost(ROW) == 51
+    assert len(list(libraries(one_more)[0].get_defined_functions())) == 1
+
+
+def test_a_kernel_is_compiled_once_for_literals_and_all_widths_of_integers() -> None:
+    assert chooses(ROW) == 1 + 2 + 4 + 3 + 2
+    assert [str(each) for each in chosen.dispatcher.overloads] == [
+        "(Array(float64, 1, 'C', False, aligned=True), int64, UniTuple(int64, 2), bool)"
+    ]
 
 
 def test_an_error_of_an_inner_function_comes_out() -> None:
