@@ -218,7 +218,8 @@ def make_safe(
                 if row(x, i) != row(before, i):
                     returned, changed[i] = True, turn
             if returned and not any_returned and begins_inside(x0, x, boxes, near):
-                x[:] = wanted
+                for i in range(len(x)):  # a slice would compile numba's messages about shapes
+                    put(x, i, 0, row(wanted, i))
                 return True
             found, any_returned = found or returned, any_returned or returned
         if not found:
