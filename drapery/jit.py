@@ -10,6 +10,7 @@ import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache, cached_property, update_wrapper
 from importlib import import_module
 from typing import Any, TypeVar, cast
@@ -32,6 +33,8 @@ DISABLE_JIT = "NUMBA_DISABLE_JIT"
 _declarations: list[Callable[[], Any]] = []
 """What tells numba of types and instructions, before the first kernel that uses them."""
 _lock = threading.RLock()
+_expected: ContextVar[tuple[Any, tuple[Any, ...]] | None] = ContextVar("_expected", default=None)
+"""The function that is called next, and its arguments."""
 
 
 class Kernel(Compiled):
@@ -252,6 +255,28 @@ def when_numba_compiles(begin: Callable[[Any], None]) -> Iterator[None]:
             _declarations.remove(listen)
         for each in stop:
             each()
+
+
+@contextmanager
+def called_next(function: Any, arguments: tuple[Any, ...]) -> Iterator[None]:
+    """A block in which another kernel may be compiled; the function is called after it, with
+    arguments of these types."""
+    before = _expected.set((function, arguments))
+    try:
+        yield
+    finally:
+        _expected.reset(before)
+
+
+def expected_call() -> bytes:
+    """The call after the block of `called_next`, for `drapery.compile_beside`; empty if none is, or
+    if it is of no kernel."""
+    call = _expected.get()
+    if call is None or not isinstance(call[0], EntryPoint):
+        return b""
+    from drapery.jit_calls import pickled_call
+
+    return pickled_call(*call)
 
 
 def _prepare_numba() -> None:

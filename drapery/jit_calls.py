@@ -1,5 +1,6 @@
 """The parts of `drapery.jit` that need numba: calls by address, and notes of compilations."""
 
+import pickle
 from collections.abc import Callable
 from typing import Any, cast
 
@@ -50,6 +51,11 @@ def compiled_address(dispatcher: Any, example: tuple[Any, ...]) -> int:
     dispatcher.compile(parameters)
     made = dispatcher.overloads[parameters]
     return cast(int, made.library.get_pointer_to_function(made.fndesc.llvm_func_name))
+
+
+def pickled_call(function: Any, arguments: tuple[Any, ...]) -> bytes:
+    """The module and the name of an entry point, and the types of the arguments of a call of it."""
+    return pickle.dumps((function.__module__, function.__qualname__, _types_of(arguments)))
 
 
 def _types_of(example: tuple[Any, ...]) -> tuple[Any, ...]:

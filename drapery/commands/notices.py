@@ -7,11 +7,17 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
+    from subprocess import Popen
+
     from rich.progress import Progress
 
 
 MAX_LINE = 4000
 """Most characters of one line on standard error."""
+
+
+_beside: list["Popen[bytes]"] = []
+"""Processes that compile kernels; they end when this one does, or before."""
 
 
 def say(message: str) -> None:
@@ -43,10 +49,10 @@ def adopt_warnings() -> None:
 
 @contextmanager
 def compile_notice() -> Iterator[None]:
-    """Print a line when kernels are compiled, which happens once and takes some seconds.
+    """Print a line when kernels are compiled, which happens once and takes up to a minute.
 
-    While this process compiles the cloth's kernels, another one compiles those of the renderer;
-    this process then reads them from the cache.
+    While this process compiles the cloth's kernels, others compile those of the renderer and the
+    one that is called next; this process then reads them from the cache.
     """
     from drapery.jit import when_numba_compiles
 
@@ -55,19 +61,27 @@ def compile_notice() -> Iterator[None]:
 
 
 def _say_compiling(function: Callable[..., object]) -> None:
-    say("compiling kernels, which happens once ...")
+    from drapery.jit import expected_call
+
+    say("compiling kernels, which happens once and takes up to a minute ...")
     if not function.__module__.startswith("drapery.render"):
-        _start_beside("drapery.render.soft")
+        _start_beside(["drapery.render.soft"])
+    if call := expected_call():
+        _start_beside([], call)
 
 
-def _start_beside(module: str) -> None:
-    """Run a module in another process, without waiting for it."""
+def _start_beside(words: list[str], call: bytes = b"") -> None:
+    """Compile kernels in another process, without waiting for it; see `drapery.compile_beside`."""
     import subprocess  # it takes long to load
 
-    nowhere = subprocess.DEVNULL
-    command = [sys.executable, "-m", module]
+    pipe, nowhere = subprocess.PIPE, subprocess.DEVNULL
+    command = [sys.executable, "-m", "drapery.compile_beside", *words]
     with suppress(OSError):  # it only saves time
-        subprocess.Popen(command, stdin=nowhere, stdout=nowhere, stderr=nowhere)
+        process = subprocess.Popen(command, stdin=pipe, stdout=nowhere, stderr=nowhere)
+        _beside.append(process)
+        assert process.stdin is not None
+        process.stdin.write(call)
+        process.stdin.flush()
 
 
 @contextmanager

@@ -24,7 +24,7 @@ from drapery.cloth.solvers.base import all_finite, check_state, check_step
 from drapery.cloth.state import State
 from drapery.cloth.wind import Gusts
 from drapery.errors import OptionError, counted
-from drapery.jit import entry_point, kernel
+from drapery.jit import called_next, entry_point, kernel
 from drapery.mesh import Array
 
 MAX_SUBSTEPS = MAX_SWEEPS = MAX_THREADS = 1000
@@ -191,12 +191,13 @@ def _advance(
 ) -> tuple[State, float]:
     plan = solver_state.of(state.positions.dtype)
     batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads, boxes)
+    rest = steps, solver_state.substeps, *solver_state.options
+    with called_next(solver_state.kernel, (0, 1, plan, batch, *rest)):
+        batch = with_contact(batch)
 
     def work(first: int, last: int) -> None:
         mine = batch._replace(work=contact_work(batch.contact, batch.itself))
-        solver_state.kernel(
-            first, last, plan, mine, steps, solver_state.substeps, *solver_state.options
-        )
+        solver_state.kernel(first, last, plan, mine, *rest)
 
     count = len(state.positions)
     lanes.run_blocks(work, count if solver_state.alone else batch.x.shape[1], batch.width, threads)
@@ -220,11 +221,11 @@ def batch_of(
     threads: int,
     boxes: BoxColliders | None,
 ) -> Batch:
+    """The arguments of a kernel for some steps; see `with_contact`."""
     dtype = state.positions.dtype
     x, v = lanes.to_lanes(state.positions), lanes.to_lanes(state.velocities)
     h, count = solver_state.dt / solver_state.substeps, int((cloth.inv_mass == 0).sum())
     itself = NOT_ITSELF if boxes is None else boxes.itself
-    meets_itself = len(itself.triangles) > 0
     return Batch(
         x,
         v,
@@ -245,11 +246,17 @@ def batch_of(
         NO_CONTACT if boxes is None else boxes.contact,
         itself,
         _box_poses(boxes, state.time, solver_state.dt, steps),
-        resolve_address() if meets_itself or (boxes and boxes.paths) else 0,
+        0,
         contact_work(NO_CONTACT),
         solver_state.often,
         len(state.positions),
     )
+
+
+def with_contact(batch: Batch) -> Batch:
+    """The batch with the address of the function that resolves its contacts, if it has any."""
+    meets = len(batch.contact.halves) > 0 or len(batch.itself.triangles) > 0
+    return batch._replace(resolve=resolve_address()) if meets else batch
 
 
 def _box_poses(boxes: BoxColliders | None, time: float, dt: float, steps: int) -> Array:

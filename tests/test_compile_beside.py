@@ -1,0 +1,92 @@
+"""Kernels are compiled by other processes while a command compiles its first one."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from drapery.commands import notices
+from drapery.jit import called_next, expected_call
+
+KERNEL = """
+from drapery.jit import entry_point
+
+@entry_point
+def twice(x):
+    return 2 * x
+"""
+FOREVER = """
+import sys
+import time
+
+def main():
+    while True:
+        time.sleep(1)
+"""
+
+Start = Callable[..., "subprocess.Popen[bytes]"]
+
+
+@pytest.fixture
+def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, untraced_processes: None) -> Start:
+    """Starts the process with kernels of a module of its own, and an empty cache."""
+    (tmp_path / "beside_kernels.py").write_text(KERNEL)
+    (tmp_path / "beside_forever").mkdir()
+    (tmp_path / "beside_forever" / "__main__.py").write_text(FOREVER)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    paths = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
+
+    def started(*words: str) -> "subprocess.Popen[bytes]":
+        return subprocess.Popen(
+            [sys.executable, "-m", "drapery.compile_beside", *words],
+            stdin=subprocess.PIPE,
+            env=os.environ | {"PYTHONPATH": paths, "NUMBA_CACHE_DIR": str(tmp_path / "cache")},
+        )
+
+    return started
+
+
+def test_the_next_kernel_is_stored_for_the_types_of_its_call(start: Start, tmp_path: Path) -> None:
+    with called_next(import_module("beside_kernels").twice, (1.5,)):
+        call = expected_call()
+    process = start()
+    assert process.stdin is not None
+    process.stdin.write(call)
+    process.stdin.flush()
+    assert process.wait() == 0  # it does not wait for the end of its input
+    process.stdin.close()
+    stored = list((tmp_path / "cache" / "drapery" / "beside_kernels.twice").rglob("*.nbc"))
+    assert len(stored) == 1
+
+
+def test_it_ends_when_the_process_that_started_it_does(start: Start) -> None:
+    process = start("beside_forever")
+    assert process.stdin is not None
+    process.stdin.close()
+    assert process.wait() == 0
+
+
+def test_no_call_is_expected_of_what_is_no_kernel() -> None:
+    assert expected_call() == b""
+    with called_next(len, ("text",)):
+        assert expected_call() == b""
+
+
+def test_a_command_starts_them_when_it_compiles_a_kernel_of_cloth(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cloth: Any = import_module("drapery.cloth.contact.lanes_contact").resolve
+    renderer: Any = import_module("drapery.render.soft.bins").sort_into_tiles
+    started: list[tuple[list[str], bytes]] = []
+    monkeypatch.setattr(notices, "_start_beside", lambda *given: started.append(given))
+    with called_next(cloth, (1,)):
+        notices._say_compiling(cloth.py_func)
+    notices._say_compiling(renderer.py_func)
+    assert [words for words, *_ in started] == [["drapery.render.soft"], []]
+    assert b"resolve" in started[1][1]
+    assert capsys.readouterr().err.count("happens once and takes up to a minute") == 2
