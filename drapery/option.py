@@ -24,12 +24,12 @@ class Subject(NamedTuple):
     """What is drawn.
 
     kind: banner, shield, cape, elytra, garment or player.
-    placement, pose: as in `Settings`.
+    placement, pose: as in `Settings`; None is any of them.
     """
 
     kind: str = "banner"
-    placement: str = "standing"
-    pose: str = "cloth"
+    placement: str | None = None
+    pose: str | None = None
 
 
 _HIDDEN: Mapping[str, frozenset[Effect]] = {
@@ -39,6 +39,8 @@ _HIDDEN: Mapping[str, frozenset[Effect]] = {
 }
 """What does not show in a placement or an output: an item is stiff and has its own camera."""
 _CALLED = {
+    "standing": "placement standing",
+    "wall": "placement wall",
     "item": "placement item",
     "banner": "a banner",
     "shield": "a shield",

@@ -2,25 +2,29 @@
 
 import difflib
 import re
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Container, Hashable, Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from drapery.errors import OptionError
 from drapery.option import Subject
-from drapery.settings import NAMED_OPTIONS, Settings, settled
+from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings, settled
 
 NAMES = frozenset(NAMED_OPTIONS)
 MAX_HINTS = 8
 """The most unknown names for which the nearest known name is looked up."""
 
 
-def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str]:
+def check_options(
+    given: Mapping[str, Any], folder: Path, defaults: Container[str] = ()
+) -> Settings | list[str]:
     """Checked options, or a list of all faults in them, one line each.
 
     given: values by the names of `NAMED_OPTIONS`, as `Option.parse` reads them.
     folder: relative paths start here.
+    defaults: names of those that are defaults of many pictures; what of them does nothing for this
+    one is left out.
     """
     values: dict[str, Any] = {}
     faults: list[str] = []
@@ -34,10 +38,12 @@ def check_options(given: Mapping[str, Any], folder: Path) -> Settings | list[str
             faults.append(one_line(str(error)))
     if faults:
         return faults
+    own = {name: value for name, value in values.items() if name in defaults}
     try:
-        settings = Settings(**values)
         # A kind that only the design tells is judged with the design.
-        return settled(settings, Subject(settings.kind, settings.placement, settings.pose))
+        subject = Subject(*(values.get(name, OPTIONS[name].default) for name in Subject._fields))
+        chosen = {name: value for name, value in values.items() if name not in defaults}
+        return settled(Settings(**chosen), subject, own=own)
     except OptionError as error:
         return [one_line(str(error))]
 

@@ -213,6 +213,7 @@ class Settings:
         bounds=(0, ROTATIONS - 1),
         audience="anyone",
         affects=("shape",),
+        not_for=("wall", "item"),
     )
     facing: Facing | None = _option(
         None,
@@ -222,7 +223,7 @@ class Settings:
         default_text="south",
         audience="anyone",
         affects=("shape",),
-        not_for=_BY_FILE,
+        not_for=("standing", "item", *_BY_FILE),
     )
     view: str | View = _option(
         "front",
@@ -606,6 +607,8 @@ NAMED_OPTIONS: Mapping[str, Option] = MappingProxyType(
 TEXTURED = tuple(kind for kind in get_args(Kind)[1:] if OPTIONS["texture"].applies(Subject(kind)))
 """The kinds that show a texture of the user in place of a design."""
 
+_AS_LOOP = "name an animation such as x.gif, or leave it out"
+
 LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
     {
         "seconds": Option(
@@ -618,6 +621,7 @@ LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
             audience="anyone",
             affects=("motion", "file"),
             not_for=("still", "page"),
+            remedy=_AS_LOOP,
         ),
         "fps": Option(
             "fps",
@@ -629,6 +633,7 @@ LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
             audience="anyone",
             affects=("motion", "file"),
             not_for=("still", "page"),
+            remedy=_AS_LOOP,
         ),
     }
 )
@@ -654,28 +659,39 @@ def settled(
 ) -> Settings:
     """The settings of a picture: the subject's own options, and in their place those given.
 
-    own: by name. Its rotation belongs to its own view: another view `front` or `back` shows that
-    side. Raises OptionError for an option that does nothing for the subject in the output; None and
-    a value of the subject's own are not refused.
+    own: options by name: those of the subject, or defaults of many subjects. Those that do nothing
+    for the subject in the output are left out. An own rotation belongs to its own view: another
+    view `front` or `back` shows that side.
+    Raises OptionError for a given option that does nothing, unless it is None or as in `own`.
     """
     given = settings.given_values
-    for name, value in given.items():
+    for name, value in settings.given_values.items():
         refusal = OPTIONS[name].refusal(subject, output)
-        if refusal and value is not None and (name not in own or _differ(value, own[name])):
+        if refusal is None:
+            continue
+        if value is not None and (name not in own or _differ(value, own[name])):
             raise OptionError(refusal)
-    if not own:
+        del given[name]
+    if not own and len(given) == len(settings.given):
         return settings
     turned = given.get("view") in ("front", "back") and "rotation" not in given
-    kept = {name: own[name] for name in own if not (turned and name == "rotation")}
-    return Settings(**kept | given)
+    kept = (name for name in own if not (turned and name == "rotation"))
+    used = {name: own[name] for name in kept if OPTIONS[name].applies(subject, output)}
+    return Settings(**used | given)
 
 
-def settled_for(design: Any, settings: Settings, output: Output) -> Settings:
-    """The same for a banner, a garment, or None for a cape, elytra or plain shield."""
-    own = getattr(design, "picture", None)
-    if own is not None:
-        return settled(settings, Subject("garment"), output, own)
-    return settled(settings, settings.subject(design.kind if design else "banner"), output)
+def settled_for(
+    design: Any, settings: Settings, output: Output, own: Mapping[str, Any] = MappingProxyType({})
+) -> Settings:
+    """The same for a banner, a garment, or None for a cape, elytra or plain shield.
+
+    own: more of its own options, before those of a garment.
+    """
+    picture = getattr(design, "picture", None)
+    if picture is not None:
+        return settled(settings, Subject("garment"), output, {**picture, **own})
+    subject = settings.subject(design.kind if design else "banner")
+    return settled(settings, subject, output, own)
 
 
 def _differ(value: object, other: object) -> bool:

@@ -389,3 +389,38 @@ def test_any_text_is_jobs_or_an_error_of_ours(form: str, words: list[str]) -> No
             assert all("\n" not in str(fault) for fault in error.faults)
         except DraperyError as error:
             assert "\n" not in str(error)
+
+
+def test_times_of_a_still_are_refused_and_defaults_of_loops_are_not() -> None:
+    for words in ({}, {"out": "x.png"}, {"out": "x.tiff"}):
+        with pytest.raises(ManifestError) as caught:
+            read_manifest([{"design": "red", "seconds": 2, **words}])
+        out = words.get("out", "00001.png")
+        said = "name an animation such as x.gif, or leave it out"
+        assert caught.value.faults[0].message == (
+            f"{out}: seconds does nothing for a still picture; {said}"
+        )
+    rows = [{"design": "red"}, {"design": "red", "out": "x.gif"}]
+    still, loop = read_manifest(rows, defaults={"seconds": 2})
+    assert (still.seconds, loop.seconds) == (None, 2)
+    assert read_manifest([{"design": "red", "seconds": 2}], format="gif")[0].seconds == 2
+
+
+def test_a_default_is_left_out_where_it_does_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "rows.jsonl"
+    path.write_text(
+        '{"defaults": {"wind": 9, "facing": "east", "placement": "wall"}}\n'
+        '{"design": "red", "turntable": false, "out": "x.gif"}\n'
+        '{"design": "red", "placement": "item"}\n{"garment": "cape"}\n'
+    )
+    wall, item, cape = (
+        each.settings for each in read_manifest(path, {"turntable": True, "seed": 7})
+    )
+    assert wall.given_values == {
+        "wind": 9, "facing": "east", "placement": "wall", "turntable": False, "seed": 7
+    }  # fmt: skip
+    assert item.given_values == {"placement": "item"}
+    assert (cape.wind, cape.seed, cape.placement, cape.facing) == (9, 7, "standing", None)
+    path.write_text('{"design": "red", "placement": "item", "wind": 9}\n')
+    with pytest.raises(ManifestError, match="wind does nothing for placement item"):
+        read_manifest(path)

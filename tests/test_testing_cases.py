@@ -98,6 +98,21 @@ def test_a_golden_whose_note_was_harmed_is_compared_without_it(
     assert code == 1 and "pixels differ" in out
 
 
+def test_a_default_is_left_out_of_a_case_in_which_it_does_nothing(
+    drapery: Run, tmp_path: Path
+) -> None:
+    text = """[defaults]\nsize = "8x8"\ntime = 0\nturntable = true\nwind = 9
+[[case]]\nname = "still"\ndesign = "red"
+[[case]]\nname = "loop"\ndesign = "red"\nseconds = 0.2\nfps = 10
+[[case]]\nname = "item"\ndesign = "red"\nplacement = "item"
+"""
+    file = file_of(tmp_path, text)
+    assert drapery("golden", "update", file)[0] == 0
+    file.write_text(text + "wind = 4\n")
+    code, _, said = drapery("golden", "update", file)
+    assert code == 2 and "case 'item': wind does nothing for placement item" in said
+
+
 def test_a_yaml_file_of_cases_is_bounded(drapery: Run, tmp_path: Path) -> None:
     """400 bytes of aliases, each nine times the one before, once took 4.6 GB."""
     lines = ["a0: &a0 lol"]

@@ -3,7 +3,7 @@
 import os
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -13,7 +13,7 @@ from drapery import Banner
 from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError
 from drapery.file_formats import FileFormat, formats_of, known_format
-from drapery.option import Option, Subject, shown
+from drapery.option import Option, Output, Subject, shown
 from drapery.options import check_options, one_line, unknown_names
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings, settled_for
@@ -108,7 +108,7 @@ def read_manifest(
         if isinstance(row, ManifestFault):
             faults.append(row)
             continue
-        request = _request(_with_defaults(row, defaults or {}), number, format, folder)
+        request = _request(row, _unset(row, defaults or {}), number, format, folder)
         if isinstance(request, PictureRequest):
             requests.append(_numbered(request, used) if row.where else request)
         else:
@@ -132,20 +132,28 @@ def _rows_in_memory(rows: Iterable[Mapping[str, Any]]) -> Rows:
         yield ManifestRow(place, values, banner)
 
 
-def _with_defaults(row: ManifestRow, defaults: Mapping[str, Any]) -> ManifestRow:
-    unset = {k: _from_current_folder(k, v) for k, v in defaults.items() if k not in row.values}
-    return replace(row, values={**unset, **row.values}) if unset else row
+def _unset(row: ManifestRow, defaults: Mapping[str, Any]) -> dict[str, Any]:
+    """The defaults of what the row does not set. defaults: those that no manifest holds."""
+    given = _one_name(row.values)
+    outer = {n: _from_current_folder(n, value) for n, value in _one_name(defaults).items()}
+    unset = {**outer, **_one_name(row.defaults)}
+    return {name: value for name, value in unset.items() if name not in given}
+
+
+def _one_name(values: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a row; packs may be called `pack`."""
+    return {"packs" if name == "pack" else name: value for name, value in values.items()}
 
 
 def _from_current_folder(name: str, value: Any) -> Any:
-    """Defaults' paths are relative to the current folder, so they are made absolute.
+    """These defaults' paths are relative to the current folder, so they are made absolute.
 
     What names a file is decided as where a row is read: by the table of options, by the ending of
     fields that hold files, and of a design by whether there is such a file.
     """
     if isinstance(value, list | tuple):
         return [_from_current_folder(name, each) for each in value]
-    option = OPTIONS.get("packs" if name == "pack" else name)
+    option = OPTIONS.get(name)
     if isinstance(value, str) and ((option and option.several) or name in FILE_COLUMNS):
         parts = (part.strip() for part in value.split(";"))
         return ";".join(_absolute(name, part, option) for part in parts if part)
@@ -174,17 +182,16 @@ def _is_file(folder: Path, text: str) -> bool:
 
 
 def _request(
-    row: ManifestRow, number: int, ending: str, folder: Path
+    row: ManifestRow, unset: Mapping[str, Any], number: int, ending: str, folder: Path
 ) -> PictureRequest | list[str]:
-    values = dict(row.values)
-    if "pack" in values:
-        values["packs"] = values.pop("pack")
+    """The picture of a row, or its faults. unset: defaults; what does nothing is left out."""
+    values = {**unset, **_one_name(row.values)}
     options = {name: values.pop(name) for name in list(values) if name in OPTIONS}
     player = {name: values.pop(name) for name in list(values) if name in PLAYER_OPTIONS}
     known = frozenset((*TEXTS, *LOOP_OPTIONS, *OPTIONS, *PLAYER_OPTIONS))
     faults = unknown_names(values, known)
     fields = _fields(values, faults)
-    settings = check_options(options, folder)
+    settings = check_options(options, folder, unset.keys())
     if not isinstance(settings, list):
         faults += _objects(settings, options)
         settings = _with_styles(settings)
@@ -193,18 +200,18 @@ def _request(
     design = row.banner or _design(fields.design, folder, faults)
     banner: Banner | Garment | None = design
     if fields.garment is not None and not isinstance(settings, list):
-        given = {name: getattr(settings, name) for name in options}
-        banner, settings = _garment(fields.garment, design, folder, faults, given)
+        banner = _garment(fields.garment, design, folder, faults)
     if player and not isinstance(settings, list):
         if banner is not None:
             faults.append("a player takes no design or garment; use head, shield or wear")
-        given = {name: getattr(settings, name) for name in options}
-        banner, settings = _player(player, folder, faults, given)
+        banner = _player(player, folder, faults, settings)
     out = _out(fields, row, number, ending, faults)
-    times = _times(out, fields, faults)
+    times = _times(out, fields, faults, row.values)
     if not (faults or isinstance(settings, list)):
+        own = {name: value for name, value in settings.given_values.items() if name in unset}
         try:
-            settled_for(banner, settings, "still" if times[0] is None else "loop")
+            output: Output = "still" if times[0] is None else "loop"
+            settings = settled_for(banner, settings, output, own)
         except OptionError as error:
             faults.append(one_line(str(error)))
     if faults or isinstance(settings, list):
@@ -284,25 +291,22 @@ def _design(text: str | None, folder: Path, faults: list[str]) -> Banner | None:
     return None
 
 
-def _garment(
-    text: str, banner: Banner | None, folder: Path, faults: list[str], given: Mapping[str, Any]
-) -> "tuple[Garment | None, Settings]":
-    """A garment by its name or file with a design, and its settings with the options given."""
+def _garment(text: str, banner: Banner | None, folder: Path, faults: list[str]) -> "Garment | None":
+    """A garment by its name or file, with a design."""
     from drapery.garments import find_garment
 
     try:
         found = find_garment(folder / text if text.endswith(".toml") else text)
-        settings = found.settings(**given)
-        return found if banner is None else found.with_design(banner), settings
+        return found if banner is None else found.with_design(banner)
     except OptionError as error:
         faults.append(one_line(str(error)))
-        return None, Settings()
+        return None
 
 
 def _player(
-    values: Mapping[str, Any], folder: Path, faults: list[str], given: Mapping[str, Any]
-) -> "tuple[Garment | None, Settings]":
-    """A player, and the settings of its picture with the options given."""
+    values: Mapping[str, Any], folder: Path, faults: list[str], settings: Settings
+) -> "Garment | None":
+    """A player. settings: of its picture."""
     from drapery.garments import player_of
 
     chosen: dict[str, Any] = {}
@@ -312,17 +316,15 @@ def _player(
         except OptionError as error:
             faults.append(one_line(str(error)))
     refusal = OPTIONS["texture"].refusal(Subject("player"))
-    if given.get("texture") is not None and refusal is not None:
+    if settings.texture is not None and refusal is not None:
         faults.append(refusal)
     if faults:
-        return None, Settings()
+        return None
     try:
-        found = player_of(PlayerSettings(**chosen), folder.absolute())
-        settings = found.settings(**given)
+        return player_of(PlayerSettings(**chosen), folder.absolute())
     except (DesignError, OptionError) as error:
         faults.append(one_line(str(error)))
-        return None, Settings()
-    return found, settings
+        return None
 
 
 @lru_cache(maxsize=1024)
@@ -377,13 +379,20 @@ def _slug(where: str) -> str:
     return re.sub(r"[^\w.-]+", "_", where).strip("._-")[:100] or "banner"
 
 
-def _times(out: str, fields: RowFields, faults: list[str]) -> tuple[float | None, float | None]:
-    """Length and rate; None for a still, which some formats hold unless one of them is given."""
+def _times(
+    out: str, fields: RowFields, faults: list[str], given: Container[str]
+) -> tuple[float | None, float | None]:
+    """Length and rate; None for a still, which some formats hold unless one of them is given.
+
+    given: the names of what the row sets, which does not stand in a row of a still.
+    """
     from drapery.settings import frame_count
 
-    given = fields.seconds is not None or fields.fps is not None
+    timed = {name for name in LOOP_OPTIONS if getattr(fields, name) is not None}
     format = _format_of(out)
-    if format is not None and format.kind(timed=given) == "still":
+    if format is not None and format.kind(timed=bool(timed)) == "still":
+        refusals = (LOOP_OPTIONS[name].refusal(output="still") for name in timed if name in given)
+        faults += sorted(f"{out}: {refusal}" for refusal in refusals)
         return None, None
     seconds = LOOP_OPTIONS["seconds"].default if fields.seconds is None else fields.seconds
     fps = LOOP_OPTIONS["fps"].default if fields.fps is None else fields.fps

@@ -2,7 +2,7 @@
 
 import csv
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -24,12 +24,14 @@ class ManifestRow:
 
     place: of the row, for messages. values: by the names of options. banner: found in a world or
     given as an object. where: its place in a world; empty for other manifests.
+    defaults: those of the manifest, by the names of options.
     """
 
     place: str
     values: dict[str, Any] = field(default_factory=dict)
     banner: Banner | None = None
     where: str = ""
+    defaults: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -92,7 +94,7 @@ def _csv(path: Path) -> Rows:
                 yield ManifestFault(place, message)
             elif any(cell.strip() for cell in cells):
                 filled = {n: c.strip() for n, c in zip(names, cells, strict=False) if c.strip()}
-                yield ManifestRow(place, {**defaults, **filled})
+                yield ManifestRow(place, filled, defaults=defaults)
     except csv.Error:
         message = f"not CSV; close its quotes, and use at most {MAX_CELL} characters in a cell"
         yield ManifestFault(f"line {line}", message)
@@ -133,7 +135,7 @@ def _json_lines(path: Path) -> Rows:
         elif set(values) == {"defaults"} and isinstance(values["defaults"], dict):
             defaults = values["defaults"]
         else:
-            yield ManifestRow(place, {**defaults, **values})
+            yield ManifestRow(place, values, defaults=defaults)
 
 
 def _yaml(path: Path) -> Rows:
@@ -150,7 +152,7 @@ def _yaml(path: Path) -> Rows:
     for job, line in zip(jobs, jobs.lines, strict=True):
         place = f"line {line}"
         if isinstance(job, dict):
-            yield ManifestRow(place, {**defaults, **job})
+            yield ManifestRow(place, dict(job), defaults=defaults)
         else:
             message = "not a job; write names of options, each with a value"
             yield ManifestFault(place, message)

@@ -192,8 +192,8 @@ def read_request(
             own = {**config.base.given_values, **garment.picture}
             settings = settled(Settings(**chosen), Subject(subject), output, own)
             return _request(values, garment, settings, ending, config.limits)
-        settings, banner = config.base.changed(**chosen), _banner(values, config.limits)
-        settings = settled_for(banner, settings, output)
+        settings, banner = Settings(**chosen), _banner(values, config.limits)
+        settings = settled_for(banner, settings, output, config.base.given_values)
         _check_kind(banner, settings)
         return _request(values, banner, settings, ending, config.limits)
     except DraperyError as error:

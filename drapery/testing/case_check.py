@@ -121,11 +121,12 @@ def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
 
 
 def _picture(case: Case, banner: Banner | None) -> Picture:
+    settings = case.settings_for(banner)
     if case.seconds is None and case.fps is None:
-        return as_picture(draw(banner, case.settings))
+        return as_picture(draw(banner, settings))
     seconds = LOOP_OPTIONS["seconds"].default if case.seconds is None else case.seconds
     fps = LOOP_OPTIONS["fps"].default if case.fps is None else case.fps
-    return as_picture(animate(banner, case.settings, seconds=seconds, fps=fps))
+    return as_picture(animate(banner, settings, seconds=seconds, fps=fps))
 
 
 def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:

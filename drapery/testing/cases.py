@@ -12,9 +12,9 @@
     view = "hero"
 
 Paths are relative to the file. A case's keys are the options of `drapery render`, beside `name`,
-`design`, `hashed` and the limits of `drapery compare`; `defaults` gives them to every case. A cape
-or elytra has a `texture` in place of a design. With `seconds` or `fps` the picture is a loop, as
-of `drapery animate`.
+`design`, `hashed` and the limits of `drapery compare`. `defaults` gives them to every case for
+which they do something. A cape or elytra has a `texture` in place of a design. With `seconds` or
+`fps` the picture is a loop, as of `drapery animate`.
 """
 
 from collections.abc import Mapping
@@ -23,12 +23,13 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError
 
+from drapery import Banner
 from drapery.comparison import EXACT, LIMIT_OPTIONS, Tolerance, read_tolerance
 from drapery.errors import OptionError
 from drapery.model_faults import said_of, wanted
 from drapery.option import shown
 from drapery.options import NAMES, check_options, one_line, unknown_names
-from drapery.settings import LOOP_OPTIONS, Settings
+from drapery.settings import LOOP_OPTIONS, Settings, settled_for
 from drapery.toml_text import parse_toml
 from drapery.user_files import read_user_file
 from drapery.yaml_text import load_yaml
@@ -45,6 +46,7 @@ class Case(BaseModel):
 
     tolerance: all limits together; a hashed case has none.
     seconds, fps: length [s] and frames/s of a loop; with None for both, the picture is a still.
+    defaulted: the names of options that the defaults of its file give.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -56,6 +58,14 @@ class Case(BaseModel):
     seconds: float | None = None
     fps: float | None = None
     settings: InstanceOf[Settings] = DEFAULTS
+    defaulted: frozenset[str] = frozenset()
+
+    def settings_for(self, banner: Banner | None) -> Settings:
+        """The settings of its picture of a banner. Raises OptionError for what does nothing."""
+        values = self.settings.given_values.items()
+        own = {name: value for name, value in values if name in self.defaulted}
+        is_still = self.seconds is None and self.fps is None
+        return settled_for(banner, self.settings, "still" if is_still else "loop", own)
 
 
 class CaseFile(BaseModel):
@@ -110,7 +120,8 @@ def _case(
     options = {name: value for name, value in words.items() if name in NAMES}
     known = NAMES.union(OWN)
     faults = unknown_names(words, known)
-    settings = check_options({"size": DEFAULTS.size} | options, path.parent)
+    defaulted = frozenset(("size", *defaults)).difference(given)
+    settings = check_options({"size": DEFAULTS.size} | options, path.parent, defaulted)
     if isinstance(settings, list):
         faults += settings
     faults += [
@@ -134,7 +145,7 @@ def _case(
         name = words.get("name", number)
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
         raise OptionError(f"{path}: case {str(name)[:100]!r}: {faults[0]}{more}")
-    return own | {"settings": settings}
+    return own | {"settings": settings, "defaulted": defaulted}
 
 
 def _load(path: Path) -> dict[str, Any]:
