@@ -12,9 +12,11 @@ from drapery.errors import OptionError
 Audience: TypeAlias = Literal["anyone", "local", "python"]
 """Who may set an option: anyone over HTTP, the user of this machine, or only a Python program."""
 OptionType: TypeAlias = type[bool] | type[int] | type[float] | type[str] | type[Path] | None
-Effect: TypeAlias = Literal["motion", "wind", "shape", "surface", "camera", "light", "file"]
+Effect: TypeAlias = Literal[
+    "motion", "wind", "shape", "surface", "animation", "camera", "light", "file"
+]
 """What an option changes: how the cloth moves, the wind, what stands where, textures and materials,
-the camera, the light, or the pixels of a file."""
+the moment of animated textures, the camera, the light, or the pixels of a file."""
 Output: TypeAlias = Literal["still", "loop", "model", "page", "face", "link"]
 """What is made: a picture, an animation, a 3-D file, a page of live cloth, a face without cloth, or
 the address of a design in the studio."""
@@ -33,12 +35,21 @@ class Subject(NamedTuple):
 
 
 _HIDDEN: Mapping[str, frozenset[Effect]] = {
+    "shield": frozenset(("motion", "wind")),
+    "cape": frozenset(("animation",)),
+    "elytra": frozenset(("motion", "wind", "animation")),
     "item": frozenset(("motion", "wind", "camera")),
+    "vanilla": frozenset(("motion", "wind")),
     "model": frozenset(("light", "file")),
-    "face": frozenset(("motion", "wind", "shape", "camera", "light", "file")),
+    "face": frozenset(("motion", "wind", "shape", "animation", "camera", "light", "file")),
 }
-"""What does not show in a placement or an output: an item is stiff and has its own camera."""
+"""What does not show of a kind, placement or pose, or in an output: shields and elytra are stiff,
+and an item has its own camera."""
 _CALLED = {
+    "cape": "a cape",
+    "elytra": "elytra",
+    "vanilla": "pose vanilla",
+    "loop": "an animation",
     "standing": "placement standing",
     "wall": "placement wall",
     "item": "placement item",

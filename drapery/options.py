@@ -26,6 +26,21 @@ def check_options(
     defaults: names of those that are defaults of many pictures; what of them does nothing for this
     one is left out.
     """
+    values = parse_options(given, folder)
+    if isinstance(values, list):
+        return values
+    own = {name: value for name, value in values.items() if name in defaults}
+    try:
+        # A kind that only the design tells is judged with the design.
+        subject = Subject(*(values.get(name, OPTIONS[name].default) for name in Subject._fields))
+        chosen = {name: value for name, value in values.items() if name not in defaults}
+        return settled(Settings(**chosen), subject, own=own)
+    except OptionError as error:
+        return [one_line(str(error))]
+
+
+def parse_options(given: Mapping[str, Any], folder: Path) -> dict[str, Any] | list[str]:
+    """The values of options by name, or a list of all faults in them; see `check_options`."""
     values: dict[str, Any] = {}
     faults: list[str] = []
     refusals = iter(unknown_names(given, NAMES))
@@ -36,16 +51,7 @@ def check_options(
             values[name] = NAMED_OPTIONS[name].parse(value, folder)
         except OptionError as error:
             faults.append(one_line(str(error)))
-    if faults:
-        return faults
-    own = {name: value for name, value in values.items() if name in defaults}
-    try:
-        # A kind that only the design tells is judged with the design.
-        subject = Subject(*(values.get(name, OPTIONS[name].default) for name in Subject._fields))
-        chosen = {name: value for name, value in values.items() if name not in defaults}
-        return settled(Settings(**chosen), subject, own=own)
-    except OptionError as error:
-        return [one_line(str(error))]
+    return faults or values
 
 
 def unknown_names(names: Iterable[Hashable], known: frozenset[str]) -> list[str]:

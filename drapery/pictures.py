@@ -108,8 +108,10 @@ def save_model(
     from drapery.scenes.subjects import loop, still
 
     design, chosen = _checked(banner, settings, options, "model")
-    chosen = replace(chosen, ground="none")
     moves = check_target(path, "model").moving and seconds != 0
+    if moves:
+        chosen = settled_for(design, chosen, "loop")
+    chosen = replace(chosen, ground="none")
     packs = open_packs(chosen.packs, format=chosen.format)
     if moves:
         tick, total = progress or (lambda done, total: None), frame_count(seconds, fps)

@@ -195,7 +195,7 @@ class Settings:
         choices=get_args(Pose),
         audience="anyone",
         affects=("motion", "shape"),
-        not_for=(*_BY_FILE, "page"),
+        not_for=(*_BY_FILE, "shield", "elytra", "item", "page"),
     )
     placement: Placement = _option(
         "standing",
@@ -345,8 +345,8 @@ class Settings:
         bounds=(0, 3600),
         unit="s",
         audience="anyone",
-        affects=("motion", "surface"),
-        not_for=("face",),
+        affects=("motion", "animation"),
+        not_for=("loop",),
     )
     seed: int = _option(
         0,
@@ -363,14 +363,14 @@ class Settings:
         choices=get_args(LayerMode),
         audience="anyone",
         affects=("surface",),
-        not_for=(*_BY_FILE, "page", "model", "face"),
+        not_for=(*_BY_FILE, "cape", "elytra", "page", "model", "face"),
     )
     pbr: bool = _option(
         False,
         bool,
         "Light by the LabPBR maps of the packs (_n and _s)",
         affects=("surface",),
-        not_for=(*_BY_FILE, "page", "model", "face"),
+        not_for=(*_BY_FILE, "cape", "elytra", "page", "model", "face"),
     )
     style: StyleLike | Sequence[StyleLike] = _option(
         (),
@@ -392,7 +392,7 @@ class Settings:
         unit="texels",
         audience="anyone",
         affects=("motion", "shape"),
-        not_for=_BY_FILE,
+        not_for=(*_BY_FILE, "shield", "elytra"),
     )
     background: str = _option(
         "transparent",

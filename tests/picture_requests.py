@@ -21,9 +21,11 @@ from numpy.typing import NDArray
 from drapery import Banner, Frame, OptionError, Settings, animate, draw, draw_face, save_model
 from drapery.banner import DYES, PATTERN_NAMES
 from drapery.garments import Garment, PlayerSettings, find_garment, garment_names, player_of
+from drapery.option import Output, Subject
 from drapery.packs import MemoryPack, open_packs
 from drapery.render import draw_scene
 from drapery.scenes import LiveBody, played_garment
+from drapery.settings import OPTIONS
 from drapery.style import body_of
 from drapery.styles import style_names
 
@@ -218,8 +220,24 @@ def _any_options(random: Random, *, standing: bool = False) -> Options:
     return {**options, **random.choice(RARE)}
 
 
+def _used(design: Any, options: Options, *outputs: Output) -> Options:
+    """The options without those that do nothing, which are refused; the pictures are the same."""
+    subject = Subject("garment")
+    if design is None or isinstance(design, Banner):
+        subject = Settings(**options).subject(design.kind if design else "banner")
+    return {
+        name: value
+        for name, value in options.items()
+        if all(OPTIONS[name].applies(subject, output) for output in outputs)
+    }
+
+
+def _drawn(subject: Any, options: Options) -> bytes:
+    return _bytes(draw(subject, **_used(subject, options, "still")))
+
+
 def _draw_banner(request: Request) -> bytes:
-    return _bytes(draw(Banner.parse(request.what["design"]), **request.options))
+    return _drawn(Banner.parse(request.what["design"]), request.options)
 
 
 def _draw_loop(request: Request) -> bytes:
@@ -229,7 +247,7 @@ def _draw_loop(request: Request) -> bytes:
 
 def _draw_cape(request: Request) -> bytes:
     texture = _texels(request)[:32]
-    return _bytes(draw(None, texture=texture, **request.options))
+    return _drawn(None, {"texture": texture, **request.options})
 
 
 def _draw_garment(request: Request) -> bytes:
@@ -244,7 +262,7 @@ def _draw_player(request: Request) -> bytes:
 def _garment_bytes(garment: Garment, request: Request) -> bytes:
     if "seconds" in request.what:
         return _loop_bytes(garment, request.what, request.options)
-    return _bytes(draw(garment, **request.options))
+    return _drawn(garment, request.options)
 
 
 def _move_live(request: Request) -> bytes:
@@ -269,7 +287,9 @@ def _save_model(request: Request) -> bytes:
     subject = find_garment(what["garment"]) if "garment" in what else Banner.parse(what["design"])
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "model" + what["ending"])
-        save_model(subject, path, seconds=0.2, fps=10.0, **request.options)
+        outputs: tuple[Output, ...] = ("model", "loop") if path.suffix == ".glb" else ("model",)
+        options = _used(subject, request.options, *outputs)
+        save_model(subject, path, seconds=0.2, fps=10.0, **options)
         written = sorted(Path(folder).iterdir())
         return b"".join(each.name.encode() + each.read_bytes() for each in written)
 
@@ -281,7 +301,7 @@ def _draw_pack(request: Request) -> bytes:
         patterns={"creeper": texels, "cross": texels[::-1]},
         textures={"minecraft:entity/banner/banner_base": opaque},
     )
-    return _bytes(draw(Banner.parse(request.what["design"]), packs=[pack], **request.options))
+    return _drawn(Banner.parse(request.what["design"]), {"packs": [pack], **request.options})
 
 
 def _texels(request: Request) -> NDArray[np.uint8]:
@@ -296,7 +316,8 @@ def _draw_face(request: Request) -> bytes:
 
 
 def _loop_bytes(subject: Any, what: Options, options: Options) -> bytes:
-    frames = animate(subject, seconds=what["seconds"], fps=what["fps"], **options).frames
+    times = {name: what[name] for name in ("seconds", "fps")}
+    frames = animate(subject, **times, **_used(subject, options, "loop")).frames
     return b"".join(map(_bytes, frames))
 
 

@@ -18,9 +18,9 @@ from drapery.style import check_kind
 
 CREEPER = Banner.parse("white creeper:lime")
 OTHERS: dict[str, Any] = {
-    "kind": "shield", "rotation": 5, "facing": "east", "view": "back", "turntable": True,
-    "size": (40, 40), "grid": (4, 6), "solver": "desbrun", "fabric": "silk", "pins": "corners",
-    "contact": "none", "wind": 9.0, "direction": 100.0, "gusts": 1.5, "seed": 7,
+    "kind": "shield", "pose": "vanilla", "rotation": 5, "facing": "east", "view": "back",
+    "turntable": True, "size": (40, 40), "grid": (4, 6), "solver": "desbrun", "fabric": "silk",
+    "pins": "corners", "contact": "none", "wind": 9.0, "direction": 100.0, "gusts": 1.5, "seed": 7,
     "style": "pixel-art", "thickness": 4.0, "background": "#ff0000", "ground": "stone",
     "samples": 4, "pixel": 2, "light": "flat", "block_light": 9, "sky_light": 2, "daylight": 0.1,
     "shadow": True,
@@ -31,7 +31,6 @@ UNSEEN = {
     "format": "is for packs",
     "texture": "is a file",
     "placement": "is the placement itself",
-    "pose": "an item has the game's own pose",
     "time": "textures of packs move",
     "layers": "looks the same where nothing is translucent",
     "pbr": "needs maps of a pack",
@@ -60,7 +59,7 @@ def test_each_option_changes_an_item_or_is_refused(name: str) -> None:
 IDLE = [
     name
     for name, option in NAMED_OPTIONS.items()
-    if name not in ("texture", "turntable", "ground")  # refused in other words
+    if name not in ("texture", "turntable", "ground", "rotation", "facing")  # in other words
     and not option.applies(Subject(placement="item"))
 ]
 

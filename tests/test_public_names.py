@@ -29,7 +29,7 @@ pytestmark = pytest.mark.usefixtures("untraced_processes")
 
 DESIGN = Banner.parse("white creeper:lime")
 ROOT = Path(__file__).parents[1]
-SMALL = Settings(size=(24, 32), time=0.1)
+SMALL = Settings(size=(24, 32))
 PUBLIC = ("drapery", "drapery.cloth", "drapery.render", "drapery.packs")
 
 
@@ -72,7 +72,7 @@ def test_every_error_is_a_drapery_error() -> None:
 
 
 def test_settings_and_options_draw_the_same() -> None:
-    by_name = draw(DESIGN, size=(24, 32), time=0.1, wind=6)
+    by_name = draw(DESIGN, size=(24, 32), wind=6)
     assert np.array_equal(draw(DESIGN, SMALL, wind=6).pixels, by_name.pixels)
     assert not np.array_equal(draw(DESIGN, SMALL).pixels, by_name.pixels)
 

@@ -3,6 +3,7 @@
 import re
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 from urllib.parse import parse_qsl, unquote, urlsplit
 
 import pytest
@@ -50,6 +51,15 @@ def test_the_service_understands_the_address_of_a_picture(tmp_path: Path) -> Non
     drawn = request.settings
     assert (drawn.size, drawn.view, drawn.wind, drawn.time) == ((64, 96), "iso", 2.5, 1.0)
     assert drawn.packs == ()
+
+
+@pytest.mark.parametrize(
+    "options", [{"turntable": True}, {"pose": "vanilla", "seed": 7}, {"placement": "item"}], ids=str
+)
+def test_the_address_of_a_picture_leaves_out_what_does_nothing(options: dict[str, Any]) -> None:
+    address = picture_address(EmbedPlaces(), BANNER, Settings(wind=9.0, **options))
+    request = read_request(parse_qsl(urlsplit(address).query), ".png", ServiceConfig(), "banner")
+    assert not isinstance(request, list), request
 
 
 @pytest.mark.parametrize("wind", [0.0, 4.0])

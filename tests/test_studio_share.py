@@ -66,6 +66,11 @@ def test_what_is_read_is_what_was_written(sketch: Sketch, settings: Settings) ->
     assert read_link(link) == (sketch, settings)
 
 
+def test_a_link_keeps_options_that_do_nothing_now() -> None:
+    settings = Settings(placement="item", wind=9.0, view="iso")
+    assert read_link(write_link(FULL, settings))[1] == settings
+
+
 def test_a_link_is_short_and_needs_no_quoting() -> None:
     link = write_link(FULL, Settings(view="iso", wind=7.5))
     assert len(link) < 600

@@ -116,7 +116,8 @@ def parameters(
     schemas: dict[str, dict[str, Any]] = {name: texts[name] for name in SUBJECTS[subject]}
     schemas |= {name: _schema(PLAYER_OPTIONS[name]) for name in _player_options(subject)}
     schemas |= {name: _schema(OPTIONS[name]) for name in options_of(subject, output)}
-    schemas["time"]["maximum"] = limits.time
+    if "time" in schemas:
+        schemas["time"]["maximum"] = limits.time
     if animated:
         schemas |= {name: _schema(option) for name, option in LOOP_OPTIONS.items()}
         schemas["seconds"]["maximum"] = limits.seconds

@@ -91,10 +91,11 @@ def styles_sheet(
         settings = replace(settings, background=background)
     names = OPTIONS["style"].check(settings.style) or tuple(style_names())
     times = [settings.time + BETWEEN * moment for moment in range(moments)]
+    later = [settings.changed(time=time) for time in times] if moments > 1 else [settings]
     cells = tuple(
-        SheetCell(find_style(name).name, draw(design, settings, style=name, time=time).pixels)
+        SheetCell(find_style(name).name, draw(design, each, style=name).pixels)
         for name in names
-        for time in times
+        for each in later
     )
     if moments == 1:
         return PictureSheet("Styles", cells, min(len(cells), 8))

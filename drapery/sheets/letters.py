@@ -1,7 +1,6 @@
 """A row of banners as one picture, such as the letters of a word."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -9,7 +8,7 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.pictures import draw, face_pixels
 from drapery.render import Frame, Pixels
-from drapery.settings import Settings
+from drapery.settings import OPTIONS, Settings
 
 GAP = 2
 """Transparent texels between the faces of a row."""
@@ -33,7 +32,9 @@ def cloth_row(banners: Sequence[Banner], settings: Settings) -> Frame:
     Each has a seed of its own, so that equal letters do not hang in equal folds.
     Raises OptionError, PackError or BackendError.
     """
-    seeds = range(settings.seed, settings.seed + len(banners))
-    chosen = (replace(settings, seed=seed) for seed in seeds)
-    frames = [draw(banner, each) for banner, each in zip(banners, chosen, strict=True)]
+    frames = []
+    for number, banner in enumerate(banners):
+        blown = OPTIONS["seed"].applies(settings.subject(banner.kind))
+        own = settings.changed(seed=settings.seed + number) if blown else settings
+        frames.append(draw(banner, own))
     return Frame(np.concatenate([frame.pixels for frame in frames], axis=1))

@@ -35,7 +35,7 @@ def picture_address(places: EmbedPlaces, banner: Banner, settings: Settings) -> 
     query = {"design": write_banner(banner, "shorthand")}
     for name, value in options_of(settings).items():
         option = NAMED_OPTIONS[name]
-        if option.public:
+        if option.public and option.applies(settings.subject(banner.kind), "still"):
             pair_or_list = option.parts or option.several
             query[name] = option.to_text(value) if pair_or_list or value is True else plain(value)
     return f"{places.server.rstrip('/')}/banner.png?{urlencode(query)}"

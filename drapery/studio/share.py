@@ -18,8 +18,9 @@ from drapery.banner import (
     unpack_link,
     write_banner,
 )
+from drapery.errors import OptionError
 from drapery.option import shown
-from drapery.options import check_options
+from drapery.options import parse_options
 from drapery.settings import NAMED_OPTIONS, applicable
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
 from drapery.styles import style_names
@@ -112,10 +113,14 @@ def settings_of(words: object) -> Settings:
             raise DesignError(f"options: {str(name)[:40]!r} is not an option of a link; {_REMEDY}")
     if "style" in words:
         words = words | {"style": _known_styles(words["style"])}
-    checked = check_options(words, Path())
-    if isinstance(checked, list):
-        raise DesignError(f"options: {checked[0]}")
-    return checked
+    # A page keeps options that do nothing for what it shows now.
+    values = parse_options(words, Path())
+    if isinstance(values, list):
+        raise DesignError(f"options: {values[0]}")
+    try:
+        return Settings(**values)
+    except OptionError as error:
+        raise DesignError(f"options: {error}") from None
 
 
 def _known_styles(names: object) -> list[str]:

@@ -18,7 +18,7 @@ from drapery.garments import (
 )
 from drapery.option import Option, Output, Subject
 from drapery.scenes import Clip, SceneEntry, find_scene
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, applicable, frame_count
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, OPTIONS, applicable, frame_count
 from drapery.studio.chosen_scene import SceneChoice
 
 FORMATS = {
@@ -267,7 +267,10 @@ def _names(request: ExportRequest) -> tuple[str, ...]:
         subject = Subject("player")  # the studio's texture is that of its cape
     else:
         subject = request.settings.subject(request.banner.kind if request.banner else "banner")
-    return applicable(subject, OUTPUTS[request.kind])
+    names = applicable(subject, OUTPUTS[request.kind])
+    # A 3-D file that waves holds a loop.
+    moves = "loop" if request.kind in MOVING else None
+    return tuple(name for name in names if OPTIONS[name].applies(subject, moves))
 
 
 def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any]:
