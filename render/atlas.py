@@ -46,9 +46,18 @@ def make_atlas(sprites: Sequence[Texels]) -> Atlas:
         )
     sheet = np.zeros((height, width, 4), np.uint8)
     for sprite, (x, y) in zip(sprites, rects, strict=True):
-        padded = np.pad(sprite, ((PADDING, PADDING), (PADDING, PADDING), (0, 0)), mode="edge")
+        padded = _with_border(sprite)
         sheet[y : y + padded.shape[0], x : x + padded.shape[1]] = padded
     return Atlas(sheet, np.concatenate([rects + PADDING, sizes], axis=1).astype(np.int32))
+
+
+def _with_border(sprite: Texels) -> Texels:
+    """A sprite with PADDING copies of its border around it."""
+    height, width = sprite.shape[:2]
+    rows = np.minimum(np.maximum(np.arange(-PADDING, height + PADDING), 0), height - 1)
+    columns = np.minimum(np.maximum(np.arange(-PADDING, width + PADDING), 0), width - 1)
+    padded: Texels = sprite[rows[:, None], columns]
+    return padded
 
 
 def place(sizes: NDArray[np.int64]) -> tuple[NDArray[np.int64], tuple[int, int]]:

@@ -8,7 +8,7 @@ import numpy as np
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.camera import Camera, Vector
-from drapery.render.vectors import dots
+from drapery.render.vectors import cross, dots
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ def _axes(view: View) -> tuple[Array, Array, Array]:
     sin, cos, level = math.sin(azimuth), math.cos(azimuth), math.cos(elevation)
     back = np.array([sin * level, math.sin(elevation), cos * level])
     right = np.array([cos, 0.0, -sin])
-    return back, right, np.cross(back, right)
+    return back, right, cross(back, right)
 
 
 def _camera(

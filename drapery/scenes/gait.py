@@ -89,9 +89,12 @@ class Gait:
         degrees = np.zeros((len(times), len(bones)))
         for name, share in shares.items():
             degrees[:, bones.index(name)] = share * turn
-        parts = (self.parts["body" if name in WING_JOINTS else name] for name in bones)
-        pivots = np.array([part.pivot for part in parts])
-        return _about_joints(pivots, degrees, self.lift(times))
+        return _about_joints(self._pivots, degrees, self.lift(times))
+
+    @cached_property
+    def _pivots(self) -> Array:
+        bones = ("body" if name in WING_JOINTS else name for name in self.poses.bones)
+        return np.array([self.parts[name].pivot for name in bones])
 
 
 def _sine_cosine(degrees: Any) -> tuple[Any, Any]:

@@ -24,13 +24,11 @@ def rigged_model(rig: Rig, poses: Mapping[str, Placed], material: Material) -> R
     """The rig in poses of its bones."""
     placed = [poses[bone] for bone in rig.bones]
     places, rotations = (np.array([pose[part] for pose in placed]) for part in (0, 1))
-    positions, normals = np.empty_like(rig.rest.positions), np.empty_like(rig.rest.normals)
-    for number, (place, rotation) in enumerate(placed):
-        own = rig.member == number
-        # einsum adds in a fixed order; BLAS may not.
-        positions[own] = np.einsum("ij,vj->vi", rotation, rig.rest.positions[own]) + place
-        normals[own] = np.einsum("ij,vj->vi", rotation, rig.rest.normals[own])
-    mesh = Mesh(positions, normals, rig.rest.triangles, rig.rest.uvs)
+    rest, turns = rig.rest, rotations[rig.member]
+    # einsum adds in a fixed order; BLAS may not.
+    positions = np.einsum("vij,vj->vi", turns, rest.positions) + places[rig.member]
+    normals = np.einsum("vij,vj->vi", turns, rest.normals)
+    mesh = Mesh(positions, normals, rest.triangles, rest.uvs)
     return RiggedModel(mesh, (material,), rig=rig, places=places, rotations=rotations)
 
 

@@ -31,10 +31,8 @@ def layer_meshes(
     height, width = visible.shape
     sides = []
     for side in box_sides(box_mapping(box.offset, box.size, sheet)):
-        left, top, right, bottom = (
-            round(share * extent)
-            for share, extent in zip(side[4], (width, height) * 2, strict=True)
-        )
+        corners = np.rint(np.array(side[4]) * ((width, height) * 2)).astype(int)
+        left, top, right, bottom = corners.tolist()
         sides.append((side, np.array([left, top]), visible[top:bottom, left:right]))
     if not any(shown.any() for _, _, shown in sides):
         return []
