@@ -474,9 +474,14 @@ class Settings:
     given: frozenset[str] = field(default=frozenset(), compare=False, repr=False, kw_only=True)
 
     def __post_init__(self) -> None:
+        changed: set[str] = set()
         for name, option in OPTIONS.items():
-            object.__setattr__(self, name, option.check(getattr(self, name)))
-        changed = {n for n, o in OPTIONS.items() if _differ(getattr(self, n), o.default)}
+            value = getattr(self, name)
+            if value is not option.default:
+                value = option.check(value)
+                object.__setattr__(self, name, value)
+                if _differ(value, option.default):
+                    changed.add(name)
         object.__setattr__(self, "given", self.given | changed)
         background_colour(self.background)
         self._check_turn()

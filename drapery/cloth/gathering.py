@@ -71,5 +71,7 @@ def _depth(across: Array, wave: Array, length: float) -> float:
 
 def _lengths(x: Array, z: Array) -> Array:
     """Length of a curve up to each of its points [m]."""
-    dx, dz = np.diff(x), np.diff(z)
-    return np.concatenate([np.zeros(1), np.cumsum(np.sqrt(dx * dx + dz * dz))])
+    dx, dz = x[1:] - x[:-1], z[1:] - z[:-1]
+    lengths = np.zeros(len(x))
+    np.add.accumulate(np.sqrt(dx * dx + dz * dz), out=lengths[1:])
+    return lengths

@@ -142,9 +142,11 @@ def _node_cells(cells: NDArray[np.int32]) -> NDArray[np.int32]:
     nodes = np.zeros((2 * count, 4), np.int32)
     nodes[count : count + len(cells)] = np.hstack([cells, cells])
     nodes[count + len(cells) :] = nodes[count]  # these leaves are empty
-    for node in range(count - 1, 0, -1):
-        children = nodes[2 * node : 2 * node + 2]
-        nodes[node, :2], nodes[node, 2:] = children[:, :2].min(axis=0), children[:, 2:].max(axis=0)
+    while count > 1:
+        children = nodes[count : 2 * count].reshape(-1, 2, 4)
+        count //= 2
+        nodes[count : 2 * count, :2] = children[..., :2].min(axis=1)
+        nodes[count : 2 * count, 2:] = children[..., 2:].max(axis=1)
     return nodes
 
 
