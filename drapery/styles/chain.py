@@ -8,6 +8,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from drapery.styles.canvas import MAX_LARGE
 from drapery.styles.step import StepKind, StyleStep
 
 MAX_PIXEL = 64
@@ -35,13 +36,17 @@ def chain_fault(steps: Iterable[StyleStep]) -> ChainFault | None:
     """
     counts: Counter[StepKind] = Counter()
     costs: defaultdict[StepKind, float] = defaultdict(float)
-    side = 1
+    side = least = 1
     for step in steps:
         kind, number = step.kind, counts[step.kind]
         counts[kind] += 1
-        costs[kind] += step.cost / side**2 if kind == "picture" else step.cost
+        costs[kind] += step.cost / least**2 if kind == "picture" else step.cost
         if makes_pixels(step):
-            side *= dict(step.parameters)["size"]
+            size = dict(step.parameters)["size"]
+            if size:
+                side, least = side * size, least * size
+            elif side == 1:  # of the picture's own choice, which large pixels are already
+                side, least = MAX_LARGE, 2
         where = f"{kind} step {number + 1} ({step.name})"
         if side > MAX_PIXEL:
             remedy = f"use sizes whose product is at most {MAX_PIXEL}"

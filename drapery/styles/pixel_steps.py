@@ -17,6 +17,8 @@ COLOUR = np.uint32(0xFFFFFF)
 """The part of a word that is not alpha."""
 MOST_COLOURS = 256
 """Rarer colours than so many do not enter the search of `limit`."""
+GREY = 9
+"""The square of the distance of two greys that are a level apart; see `_distances`."""
 PASSES = 4
 """How often `steady` goes around a loop before it stops waiting for the end to meet the start."""
 
@@ -26,13 +28,21 @@ AROUND = [(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or
 """Offsets of the eight pixels around one."""
 
 
+@costs(4)
 def pixels(
     canvas: Canvas,
     *,
-    size: Annotated[int, Field(ge=2, le=64, description="side of a large pixel [pixels]")] = 4,
+    size: Annotated[
+        int, Field(ge=0, le=64, description="side of a large pixel [pixels]; 0: by the picture")
+    ] = 0,
 ) -> Canvas:
-    """Large pixels, each with the one colour in its middle. Steps after this one work on them."""
-    return canvas.coarse(size)
+    """Large pixels, each of one colour: the most typical of nine places in it.
+
+    It shows what most of these places show. Steps after this one work on the large pixels. By the
+    picture, 85 of them are as high as it is: a little less than a texel of a banner that fills it.
+    Pixels that are large already stay so.
+    """
+    return canvas if canvas.pixel > 1 and not size else canvas.coarse(size)
 
 
 @costs(16)
@@ -41,28 +51,47 @@ def limit(
     canvases: Sequence[Canvas],
     *,
     colours: Annotated[int, Field(ge=2, le=256, description="the most colours")] = 16,
+    apart: Annotated[int, Field(ge=0, le=255, description="least distance of two [levels]")] = 0,
+    models: Annotated[bool, Field(description="whether each model has a palette")] = False,
 ) -> list[Canvas]:
     """Few colours in the whole loop: the pair that is alike and rare becomes one, again and again.
 
     Of two colours the rarer one becomes the other. Their cost is the count of its pixels times the
-    square of their distance.
+    square of their distance. Pairs that are less than `apart` levels of grey from each other become
+    one first, also if there are few. With `models` the cloth does not share its palette with its
+    pole or with the ground.
     """
     drawn = [canvas.words() for canvas in canvases]
-    shown = np.concatenate([words[words >= VISIBLE] & COLOUR for words in drawn])
-    names, counts = np.unique(shown, return_counts=True)
-    if len(names) <= colours:
-        return list(canvases)
-    table = _merged(names, counts, colours)
-    for words in drawn:
-        visible = words >= VISIBLE
-        found = np.searchsorted(names, words[visible] & COLOUR)
-        words[visible] = words[visible] & ~COLOUR | table[found]
+    parts = [np.where(words >= VISIBLE, 0, -1) for words in drawn]
+    if models:
+        parts = [
+            np.where(part < 0, -1, canvas.buffers.model + 1)
+            for part, canvas in zip(parts, canvases, strict=True)
+        ]
+    for number in sorted({int(each) for part in parts for each in np.unique(part)} - {-1}):
+        _limit_part(drawn, [part == number for part in parts], colours, apart)
     return _painted(canvases, drawn)
+
+
+def _limit_part(
+    drawn: Sequence[Words], parts: Sequence[NDArray[np.bool_]], colours: int, apart: int
+) -> None:
+    """Few colours in one part of each picture, in place. parts: shape [H, W] each."""
+    shown = [words[part] & COLOUR for words, part in zip(drawn, parts, strict=True)]
+    names, counts = np.unique(np.concatenate(shown), return_counts=True)
+    if len(names) <= colours and not apart:
+        return
+    table = _merged(names, counts, colours, apart)
+    for words, part, own in zip(drawn, parts, shown, strict=True):
+        words[part] = words[part] & ~COLOUR | table[np.searchsorted(names, own)]
 
 
 @costs(12)
 def clean(canvas: Canvas) -> Canvas:
-    """No orphans: a pixel unlike all eight around it gets the most frequent colour of those."""
+    """No orphans: a pixel unlike all eight around it gets the most frequent colour of those.
+
+    Of the eight only those that show the same model count, if there are any.
+    """
     words = canvas.words()
     words[words < VISIBLE] = 0
     framed = np.pad(words, 1, mode="edge")
@@ -72,8 +101,11 @@ def clean(canvas: Canvas) -> Canvas:
         alike |= outside[1 + row : 1 + row + height, 1 + column : 1 + column + width] == words
     y, x = np.nonzero(~alike & (words != 0))
     near = np.stack([framed[1 + y + row, 1 + x + column] for row, column in AROUND], axis=-1)
+    models = np.pad(canvas.buffers.model, 1, mode="edge")
+    model = np.stack([models[1 + y + row, 1 + x + column] for row, column in AROUND], axis=-1)
+    own = model == canvas.buffers.model[y, x][:, None]
     # The most frequent one; of several the one with the least number.
-    counts = (near[:, :, None] == near[:, None]).sum(axis=-1)
+    counts = (near[:, :, None] == near[:, None]).sum(axis=-1) + 9 * own
     best = np.argmax((counts << 32) - near.astype(np.int64), axis=-1)
     words[y, x] = near[np.arange(len(near)), best]
     return canvas.painted(as_pixels(words))
@@ -142,21 +174,30 @@ def _painted(canvases: Sequence[Canvas], drawn: Sequence[Words]) -> list[Canvas]
     return [canvas.painted(as_pixels(words)) for canvas, words in zip(canvases, drawn, strict=True)]
 
 
-def _merged(names: Words, counts: NDArray[np.intp], most: int) -> Words:
-    """What each colour becomes so that at most `most` remain. names: without alpha."""
+def _merged(names: Words, counts: NDArray[np.intp], most: int, apart: int) -> Words:
+    """What each colour becomes so that at most `most` remain, all so far apart [levels].
+
+    names: without alpha.
+    """
     rgb = (names[:, None] >> np.array([0, 8, 16], np.uint32) & np.uint32(255)).astype(np.int64)
     kept = np.argsort(-counts, kind="stable")[:MOST_COLOURS]
     weight, never = counts[kept].astype(np.int64), np.iinfo(np.int64).max
-    apart = _distances(rgb[kept], rgb[kept])
-    cost = apart * np.minimum(weight[:, None], weight[None, :])
+    far = _distances(rgb[kept], rgb[kept])
+    cost = far * np.minimum(weight[:, None], weight[None, :])
     np.fill_diagonal(cost, never)
-    for _ in range(len(kept) - most):
-        one, other = divmod(int(np.argmin(cost)), len(kept))
+    near = far < GREY * apart * apart
+    while True:
+        pairs = np.where(near, cost, never)
+        if pairs.min() == never:
+            if np.count_nonzero(weight) <= most:
+                break
+            pairs = cost
+        one, other = divmod(int(np.argmin(pairs)), len(kept))
         if weight[one] < weight[other]:
             one, other = other, one
         weight[one] += weight[other]
         weight[other] = 0
-        row = apart[one] * np.minimum(weight[one], weight)
+        row = far[one] * np.minimum(weight[one], weight)
         row[(weight == 0) | (np.arange(len(kept)) == one)] = never
         cost[one], cost[:, one] = row, row
         cost[other], cost[:, other] = never, never

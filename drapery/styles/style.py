@@ -19,7 +19,7 @@ from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
 from drapery.settings import Lighting, Settings
 from drapery.style.sheet import Sheet
-from drapery.styles.canvas import Canvas, laid_over
+from drapery.styles.canvas import PLACES, Canvas, laid_over, large_pixel
 from drapery.styles.chain import chain_fault, makes_pixels
 from drapery.styles.colours import as_pixels
 from drapery.styles.step import StepKind, StyleStep, as_toml, parameter_lines
@@ -228,10 +228,12 @@ def _flat_buffers(frame: Frame) -> Buffers:
 
 
 def _large_pixels(scene: Scene, size: int, draw_scene: DrawScene) -> Canvas:
-    """A scene drawn with one sample in the middle of each square of size x size pixels.
+    """A scene drawn with a few samples in each square of size x size pixels, of which it keeps one.
 
-    The squares lie evenly about the middle of the picture, so those at its edges may be cut.
+    size: 0 is that of `large_pixel`. The squares lie evenly about the middle of the picture, so
+    those at its edges may be cut.
     """
+    size = size or large_pixel(scene.size[1])
     across, down = (-(-side // size) for side in scene.size)
     taller = down * size / scene.size[1]
     camera = scene.camera
@@ -240,7 +242,8 @@ def _large_pixels(scene: Scene, size: int, draw_scene: DrawScene) -> Canvas:
     else:
         half = math.tan(math.radians(camera.fov / 2)) * taller
         camera = replace(camera, fov=2 * math.degrees(math.atan(half)))
-    coarse = replace(scene, camera=camera, size=(across, down), samples=1, background=CLEAR)
+    fine = across * PLACES, down * PLACES
+    sharp = replace(scene, camera=camera, size=fine, samples=1, background=CLEAR)
     corner = (down * size - scene.size[1]) // 2, (across * size - scene.size[0]) // 2
-    frame, make_buffers = draw_with_buffers(coarse, draw_scene)
-    return Canvas(frame.pixels, make_buffers, 1, size, corner)
+    frame, make_buffers = draw_with_buffers(sharp, draw_scene)
+    return replace(Canvas(frame.pixels, make_buffers).coarse(PLACES), pixel=size, corner=corner)
