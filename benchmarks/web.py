@@ -26,7 +26,7 @@ from benchmarks.quick import add_quick, needs
 from drapery import Banner, Settings
 from drapery.garments import dressed_player, make_wearer
 from drapery.packs import open_packs
-from drapery.scenes import LiveBody, LivePanel, live_garment, live_panels, played_garment
+from drapery.scenes import LiveBody, LivePanel, live_panels, played_body, played_garment
 from drapery.style import Body, body_of
 from drapery.web.wasm.build import METHODS, build_module
 from drapery.web.wasm.module import module_info, module_places
@@ -136,7 +136,7 @@ def worn(wear: str, solver: Any) -> tuple[LivePanel, str, float]:
     start = time.process_time()
     state = moving.advance(forces, STEPS, pins).state
     spent = (time.process_time() - start) / STEPS * 1e6
-    panel = live_garment(dressed, LANES)[-1]
+    panel = live_panels(dressed.subject(), LANES)[-1]
     return panel, digest(state.positions[0], state.velocities[0]), spent
 
 
@@ -193,12 +193,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
             for grid in GRIDS[:1] if quick else GRIDS:
                 options: Any = {"solver": solver, "grid": grid}
                 settings = Settings(**options)
-                panel = live_panels(banner(settings), settings, LANES)[0]
+                panel = live_panels(played_body(banner(settings), settings), LANES)[0]
                 plan = write_plan(panel, info)
                 native(settings, 1)  # loads the kernels
                 expected, there = native(settings, STEPS)
                 state, here, shown = played(folder, plan, WIND, 1, timed)
-                here_too = live_panels(banner(settings), settings)[0]  # this processor's lanes
+                here_too = live_panels(played_body(banner(settings), settings))[
+                    0
+                ]  # this processor's lanes
                 pulled = replayed(here_too, PULLS) == played(folder, plan, PULLS, 0, 0)[0]
                 same = state == expected
                 equal = equal and same and pulled
@@ -222,7 +224,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for solver in solvers:
             options = {"solver": solver, "grid": (11, 21)}
             settings = Settings(**options)
-            panel = live_panels(banner(settings), settings, LANES)[0]
+            panel = live_panels(played_body(banner(settings), settings), LANES)[0]
             each = played(folder, write_plan(panel, info), [], BANNERS, timed)[2]
             frame = each * BANNERS / 1000
             print(

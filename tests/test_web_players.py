@@ -17,7 +17,7 @@ from wasm_player import WasmPlayer, built_module
 from drapery.errors import OptionError
 from drapery.garments import Garment, dressed_player, find_garment, make_wearer
 from drapery.packs import open_packs
-from drapery.scenes import PlayedGarment, live_garment, played_garment
+from drapery.scenes import PlayedGarment, live_panels, played_garment
 from drapery.style.skins import read_skin
 from drapery.web.messages import unpack
 from drapery.web.page import page_text
@@ -42,7 +42,7 @@ def played(garment: Garment, **options: Any) -> PlayedGarment:
 @pytest.mark.parametrize("wear", ["cape", "elytra"])
 def test_600_steps_on_a_walking_player_have_the_bits_of_python(wear: str) -> None:
     worn = played(player(wear))
-    panel, sewn = live_garment(worn, LANES)[-1], worn.cloths[-1]
+    panel, sewn = live_panels(worn.subject(), LANES)[-1], worn.cloths[-1]
     here = WasmPlayer(built_module(), write_plan(panel, module_info(built_module())))
     here.step(599)
     here.step(1)
@@ -60,7 +60,7 @@ def test_the_legs_move_the_cape_and_the_figure_walks() -> None:
     worn = played(player(speed=4.0))
     free = played(player(speed=4.0).model_copy(update={"collisions": "none"}))
     info = module_info(built_module())
-    plans = [write_plan(live_garment(each, LANES)[0], info) for each in (worn, free)]
+    plans = [write_plan(live_panels(each.subject(), LANES)[0], info) for each in (worn, free)]
     first, second = (WasmPlayer(built_module(), plan) for plan in plans)
     for each in (first, second):
         each.step(110)
@@ -92,7 +92,7 @@ def test_poses_repeat_to_the_bit_after_their_ramp() -> None:
 )
 def test_garments_that_cannot_be_played_are_refused(garment: Garment, reason: str) -> None:
     with pytest.raises(OptionError, match=reason):
-        live_garment(played(garment))
+        live_panels(played(garment).subject())
 
 
 def test_a_scene_of_a_player_names_its_textures() -> None:

@@ -20,9 +20,9 @@ from drapery.cloth import SolverPBD
 from drapery.cloth.forces import lower_forces
 from drapery.packs import open_packs
 from drapery.render import draw_scene
-from drapery.scenes import LiveBody, live_panels, still
+from drapery.scenes import LiveBody, live_panels, live_picture, played_body, still
 from drapery.scenes.stager import cloth_spec, forces_of, wind_of
-from drapery.style import body_of
+from drapery.style import Body, body_of
 from drapery.web.wasm import build
 from drapery.web.wasm.module import module_info
 from drapery.web.wasm.plan import LANES, plans_of, split_plan, write_plan
@@ -33,8 +33,12 @@ SCRIPT = Path(__file__).parent.parent / "drapery" / "web" / "wasm" / "cloth.js"
 
 def plan_of(settings: Settings) -> bytes:
     built_module()
-    (plan,) = plans_of(white_banner(settings), settings)
+    (plan,) = plans_of(played_body(white_banner(settings), settings))
     return plan
+
+
+def picture_plan(body: Body, settings: Settings) -> bytes:
+    return write_plan(live_picture(body, settings, LANES), module_info(built_module()))
 
 
 def digest(*arrays: Any) -> str:
@@ -66,7 +70,7 @@ def test_contact_of_the_cloth_with_itself_has_the_bits_of_python() -> None:
     for contact in ("world", "all"):
         settings = quick_settings(wind=20.0, direction=240.0, fabric="silk", contact=contact)
         live = LiveBody(white_banner(settings), settings)
-        (plan,) = plans_of(live.body, settings, picture=True)
+        plan = picture_plan(live.body, settings)
         player = WasmPlayer(built_module(), plan)
         player.step(300)
         sizes.append(player.memory.data_len(player.store))
@@ -83,7 +87,7 @@ def test_a_picture_has_the_pixels_of_python() -> None:
     design = Banner.parse("white creeper:lime border:black")
     body = body_of(design, open_packs(()), settings)
     built_module()
-    (plan,) = plans_of(body, settings, picture=True)
+    plan = picture_plan(body, settings)
     player = WasmPlayer(built_module(), plan)
     player.step(player.header["steps"])
     player.run("cover")
@@ -96,7 +100,7 @@ def test_a_picture_has_the_pixels_of_python() -> None:
 def test_the_start_has_the_wind_of_python() -> None:
     settings = quick_settings(wind=7.0, direction=40.0, placement="wall")
     body = white_banner(settings)
-    (panel,) = live_panels(body, settings)
+    (panel,) = live_panels(played_body(body, settings))
     aim = panel.calls["aim"]
     assert aim.function(*aim.arguments) == 0
     cloth = cloth_spec(body.panels[0], settings, body.solids).make_cloth()
@@ -109,7 +113,7 @@ def test_the_start_has_the_wind_of_python() -> None:
 
 def test_a_turned_wind_has_the_bits_of_python_and_its_gusts_do_not_jump() -> None:
     settings = quick_settings()
-    (panel,) = live_panels(white_banner(settings), settings, LANES)
+    (panel,) = live_panels(played_body(white_banner(settings), settings), LANES)
     player = WasmPlayer(built_module(), write_plan(panel, module_info(built_module())))
     player.step(200)
     player.write("wind", -3.0, 1.0, 8.0)
@@ -175,7 +179,7 @@ def test_what_cannot_be_played_is_refused(options: Any, reason: str) -> None:
 
 def test_a_module_without_the_kernel_is_refused() -> None:
     settings = quick_settings()
-    (panel,) = live_panels(white_banner(settings), settings, LANES)
+    (panel,) = live_panels(played_body(white_banner(settings), settings), LANES)
     with pytest.raises(DraperyError, match="has no kernel aim for this cloth"):
         write_plan(panel, {"sources": "", "kernels": {}})
 
@@ -191,7 +195,7 @@ def test_a_module_without_the_kernel_is_refused() -> None:
 def test_pictures_that_need_python_are_refused(options: Any, reason: str) -> None:
     settings = quick_settings(time=0.0, **options)
     with pytest.raises(DraperyError, match=reason):
-        live_panels(white_banner(settings), settings, picture=True)
+        live_picture(white_banner(settings), settings)
 
 
 def test_a_build_without_its_compiler_names_the_extra(

@@ -23,10 +23,18 @@ if TYPE_CHECKING:
     from drapery.scenes.drawing import scene_frames
     from drapery.scenes.dressing import Dressed
     from drapery.scenes.exploded import exploded_view
-    from drapery.scenes.garment_playing import PlayedGarment, live_garment, played_garment
+    from drapery.scenes.garment_playing import PlayedGarment, played_garment
     from drapery.scenes.parameters import SceneParameters
     from drapery.scenes.picture_grid import Picture, PictureGrid
-    from drapery.scenes.playing import LiveKernel, LivePanel, live_panels
+    from drapery.scenes.playing import (
+        LiveKernel,
+        LivePanel,
+        PlayedCloth,
+        PlayedSubject,
+        live_panels,
+        live_picture,
+        played_body,
+    )
     from drapery.scenes.recording import Schedule
     from drapery.scenes.stager import (
         STEP,
@@ -53,7 +61,9 @@ __all__ = [
     "LivePanel",
     "Picture",
     "PictureGrid",
+    "PlayedCloth",
     "PlayedGarment",
+    "PlayedSubject",
     "SceneEntry",
     "SceneParameters",
     "Schedule",
@@ -66,10 +76,11 @@ __all__ = [
     "find_scene",
     "floor_under",
     "flow",
-    "live_garment",
     "live_panels",
+    "live_picture",
     "loop",
     "moments",
+    "played_body",
     "played_garment",
     "scene_frames",
     "scene_names",
@@ -86,10 +97,18 @@ __getattr__, __dir__ = lazy_names(
         "scenes.drawing": ("scene_frames",),
         "scenes.dressing": ("Dressed",),
         "scenes.exploded": ("exploded_view",),
-        "scenes.garment_playing": ("PlayedGarment", "live_garment", "played_garment"),
+        "scenes.garment_playing": ("PlayedGarment", "played_garment"),
         "scenes.parameters": ("SceneParameters",),
         "scenes.picture_grid": ("Picture", "PictureGrid"),
-        "scenes.playing": ("LiveKernel", "LivePanel", "live_panels"),
+        "scenes.playing": (
+            "LiveKernel",
+            "LivePanel",
+            "PlayedCloth",
+            "PlayedSubject",
+            "live_panels",
+            "live_picture",
+            "played_body",
+        ),
         "scenes.recording": ("Schedule",),
         "scenes.subjects": ("StagedSubject", "loop", "moments", "stage", "still", "subject_of"),
         "scenes.stager": (

@@ -12,7 +12,7 @@ import numpy as np
 
 from drapery.banner.packs import Packs
 from drapery.cloth import Gravity, State, Wind
-from drapery.cloth.live import LiveMotion, live_call
+from drapery.cloth.live import LiveMotion
 from drapery.errors import OptionError
 from drapery.garments.assembly import SewnCloth
 from drapery.garments.blends import read_blend
@@ -25,14 +25,13 @@ from drapery.render.scene import RiggedModel, Scene
 from drapery.scenes.dressing import MIDDLE, WORN_STEP, Dressed
 from drapery.scenes.layered import meet_each_other
 from drapery.scenes.player_motion import RAMP, STRIDE
-from drapery.scenes.playing import LiveKernel, LivePanel, make_live_panel, turning_of
+from drapery.scenes.playing import PlayedCloth, PlayedSubject, turning_of
 from drapery.scenes.recording import Drape, Schedule
 from drapery.scenes.stager import wind_of
 from drapery.scenes.staging import Staging
 from drapery.scenes.wearers import Wearer
 from drapery.settings import Settings
-from drapery.style.live_figure import make_live_figure, pose_figure
-from drapery.style.live_shell import make_live_shell
+from drapery.style.live_figure import LiveFigure, make_live_figure
 from drapery.style.skins import SIDE
 
 TICKS = 5040
@@ -83,6 +82,13 @@ class PlayedGarment(Dressed):
         cape = [0, 0, SIDE, SIDE * height // width] if is_sheet else [left, top, *extent]
         return [0, 0, SIDE, SIDE], cape
 
+    def subject(self) -> PlayedSubject:
+        """Its cloths and its wearer at the start, to be played in the wind of the settings."""
+        staging = Staging(self.settings)
+        figure = None if self.wearer is None else _figure(self, self.wearer, staging)
+        cloths = tuple(_played_cloth(self, sewn) for sewn in self.cloths)
+        return PlayedSubject(staging, cloths, figure)
+
     def figures(self) -> list[RiggedModel]:
         """The models of the wearer, which come directly before those of the cloths."""
         models = self.wearer.models(0.0, self._bones) if self.wearer else ()
@@ -120,50 +126,29 @@ def played_garment(garment: Garment, packs: Packs, settings: Settings) -> Played
     return played
 
 
-def live_garment(played: PlayedGarment, lanes: int | None = None) -> list[LivePanel]:
-    """The cloths of a garment, to be played in the wind of its settings.
-
-    The first one also has the wearer, if there is one: the call `pose` writes the arrays `figure`
-    and `figureLight`. lanes: see `live_panels`. Raises OptionError.
-    """
-    staging = Staging(played.settings)
-    panels = [_panel(played, staging, sewn, lanes) for sewn in played.cloths]
-    return (
-        panels if played.wearer is None else [_with_figure(panels[0], played, staging), *panels[1:]]
-    )
-
-
-def _panel(
-    played: PlayedGarment, staging: Staging, sewn: SewnCloth, lanes: int | None
-) -> LivePanel:
-    drape = played.drape(sewn)
-    settings, who = played.settings, played.garment.wearer
+def _played_cloth(played: PlayedGarment, sewn: SewnCloth) -> PlayedCloth:
+    drape, settings, who = played.drape(sewn), played.settings, played.garment.wearer
     speed = 0.0 if who is None or isinstance(settings.wind, Wind) else who.speed
-    motion = LiveMotion(drape.pins, *played.cycle, (0.0, 0.0, -speed), sewn.cloth.drag)
     wind = played.wind(None)
-    free = replace(wind, velocity=wind_of(settings).velocity)
-    forces = Gravity(), wind, *settings.forces
-    call = live_call(drape.begin(played.step), forces, free, lanes=lanes, motion=motion)
-    shell = make_live_shell(
-        sewn.pieces[0].shell, MIDDLE, sewn.thickness, staging.light, *turning_of(staging.settings)
+    return PlayedCloth(
+        drape.begin(played.step),
+        (Gravity(), wind, *settings.forces),
+        replace(wind, velocity=wind_of(settings).velocity),
+        sewn.pieces[0].shell,
+        sewn.thickness,
+        MIDDLE,
+        motion=LiveMotion(drape.pins, *played.cycle, (0.0, 0.0, -speed), sewn.cloth.drag),
     )
-    panel = make_live_panel(call, shell, {})
-    return replace(panel, arrays={**panel.arrays, "row": call.live.row})
 
 
-def _with_figure(panel: LivePanel, played: PlayedGarment, staging: Staging) -> LivePanel:
-    """The panel with a call that poses the wearer."""
-    wearer = played.wearer
-    assert wearer is not None
+def _figure(played: PlayedGarment, wearer: Wearer, staging: Staging) -> LiveFigure:
+    """The wearer, with a table of its poses."""
     bones, poses = [*wearer.parts], wearer.poses
     table = poses.at(np.arange(sum(played.cycle)) * played.step)
     table = table[:, [poses.bones.index(bone) for bone in bones]]
     rigs = [model.rig for model in played.figures()]
     light, turned = staging.light, turning_of(staging.settings)
-    figure = make_live_figure(rigs, bones, table, MIDDLE, light, *turned)
-    call = LiveKernel("pose", pose_figure, (panel.arrays["row"], figure))
-    arrays = {"figure": figure.vertices, "figureLight": figure.light}
-    return replace(panel, calls={**panel.calls, "pose": call}, arrays={**panel.arrays, **arrays})
+    return make_live_figure(rigs, bones, table, MIDDLE, light, *turned)
 
 
 def _period_of(who: GarmentWearer, garment: Garment) -> float:

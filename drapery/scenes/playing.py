@@ -1,19 +1,20 @@
-"""Cloth of a body that plays on without Python: the kernels to call, and their arguments.
+"""Cloth that plays on without Python: the kernels to call, and their arguments.
 
 `drapery.web.wasm` compiles the kernels to WebAssembly and writes the arguments to a file.
 """
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner.design import MAX_LAYERS
+from drapery.cloth import Force, MovingCloth, Wind
 from drapery.cloth.contact import lanes_contact
-from drapery.cloth.live import LiveCall, live_call
+from drapery.cloth.live import STILL, LiveMotion, live_call
 from drapery.cloth.live import play as play_cloth  # what is called `play` here is a scene
 from drapery.cloth.live_wind import aim
 from drapery.errors import OptionError
@@ -29,9 +30,12 @@ from drapery.scenes.stager import (
     forces_of,
     wind_of,
 )
+from drapery.scenes.staging import Staging
 from drapery.settings import Settings
 from drapery.style.block import turn_centre, turn_matrix
 from drapery.style.body import Body, Panel
+from drapery.style.extrusion import Shell
+from drapery.style.live_figure import LiveFigure, pose_figure
 from drapery.style.live_shell import LiveShell, cover, make_live_shell
 from drapery.styles.grids import grid_shell
 
@@ -57,7 +61,7 @@ class LivePanel:
 
     header: what a host wants to know, for JSON. calls: by what they do: `aim` turns the wind,
     `play` makes time steps, `cover` writes the vertices of the thick cloth; see `live_panels` for
-    `draw`, and `live_garment` for `pose`.
+    `pose`, and `live_picture` for `draw`.
     arrays: parts of the arguments that the host reads and writes, by name.
     functions: what kernels call by an address, and an example of its arguments; fields of named
     tuples that hold such an address have the name of the function.
@@ -69,54 +73,85 @@ class LivePanel:
     functions: Mapping[str, tuple[Callable[..., Any], tuple[Any, ...]]]
 
 
-def live_panels(
-    body: Body, settings: Settings, lanes: int | None = None, *, picture: bool = False
-) -> list[LivePanel]:
-    """The panels of a body, to be played in the wind of the settings.
+@dataclass(frozen=True, eq=False)
+class PlayedCloth:
+    """A cloth at the start of its motion, and how a host moves and draws it.
 
-    lanes: of the arrays; by default a register of this processor. Cloth that is not for a picture
-    passes through itself, since a hand may pull it.
-    picture: whether the call `draw` draws the picture of the settings, with the camera that frames
-    the cloth at `settings.time`; only for bodies of one panel, without shadows. The header then has
-    `picture`, its width and height; and `steps`, after which the cloth is that of the still. The
-    host may replace `materials`, `layers` and `atlas`; the layers end with SPARE rows of zeros.
-    Raises OptionError for settings that cannot be played without Python.
+    moving: the cloth. forces: on it, with one wind.
+    wind: the free wind, which a host may turn. lee, motion: see `live_call`.
+    shell: the surface around its particles. thickness: of the cloth [m].
+    place: of its own frame in the picture [m], shape [3].
+    header: what hosts also want to know, for JSON.
+    """
+
+    moving: MovingCloth
+    forces: tuple[Force, ...]
+    wind: Wind
+    shell: Shell
+    thickness: float
+    place: Array
+    lee: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    motion: LiveMotion = STILL
+    header: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class PlayedSubject:
+    """A subject at the start of its motion, which plays on without Python.
+
+    cloths: those that move. figure: who wears them.
+    """
+
+    staging: Staging
+    cloths: tuple[PlayedCloth, ...]
+    figure: LiveFigure | None = None
+
+
+def played_body(body: Body, settings: Settings) -> PlayedSubject:
+    """A body to be played in the wind of the settings; its cloth passes through itself.
+
+    A hand may pull it, and does not feel what is in its way: cloth that it has pulled through
+    itself could not come back. Raises OptionError for settings that cannot be played.
+    """
+    pulled = replace(settings, contact="world") if settings.contact == "all" else settings
+    staged = StagedBody(body, pulled)
+    _check_played(staged.staging)
+    cloths = tuple(_played_cloth(staged, panel) for panel in body.panels)
+    return PlayedSubject(staged.staging, cloths)
+
+
+def live_panels(played: PlayedSubject, lanes: int | None = None) -> list[LivePanel]:
+    """The cloths of a subject. The first also has its figure, if there is one: the call `pose`
+    writes the arrays `figure` and `figureLight`.
+
+    lanes: of the arrays; by default a register of this processor.
+    Raises OptionError for cloth that cannot be played without Python.
+    """
+    panels = [_live_panel(cloth, played.staging, lanes) for cloth in played.cloths]
+    return (
+        panels if played.figure is None else [_with_figure(panels[0], played.figure), *panels[1:]]
+    )
+
+
+def live_picture(body: Body, settings: Settings, lanes: int | None = None) -> LivePanel:
+    """The panel of a body, with the call `draw`, which draws the picture of the settings.
+
+    Only for bodies of one panel, without shadows. The camera frames the cloth at `settings.time`.
+    The header has `picture`, its width and height; and `steps`, after which the cloth is that of
+    the still. The host may replace `materials`, `layers` and `atlas`; the layers end with SPARE
+    rows of zeros. lanes: see `live_panels`.
+    Raises OptionError for settings that cannot be played or drawn without Python.
     """
     staged = StagedBody(body, settings)
     staging = staged.staging
-    for kind in ("motion", "shape"):
-        if staging.style.has(kind):
-            raise OptionError(
-                f"a style with steps of {kind} cannot be played without Python; "
-                "use styles of materials and pictures only"
-            )
-    if staging.settings.pose != "cloth":
-        raise OptionError(f"pose {staging.settings.pose} has no cloth to play; use pose cloth")
-    if not picture:
-        staged = StagedBody(body, _pulled(settings))
-        return [_live_panel(staged, panel, lanes) for panel in body.panels]
+    _check_played(staging)
     if len(body.panels) != 1 or staging.settings.pixel != 1 or staging.style.has("picture"):
         raise OptionError(
             "pictures of several panels, of large pixels and of styles with steps of picture need "
             "Python; leave out the picture"
         )
-    return [_with_picture(staged, lanes)]
-
-
-def _pulled(settings: Settings) -> Settings:
-    """The settings of cloth that a hand may pull, which passes through itself.
-
-    A hand does not feel what is in its way, and cloth that it has pulled through itself could not
-    come back.
-    """
-    return replace(settings, contact="world") if settings.contact == "all" else settings
-
-
-def _with_picture(staged: StagedBody, lanes: int | None) -> LivePanel:
-    """The panel with a call that draws its body, with the time steps of `still`."""
-    body, settings = staged.body, staged.staging.settings
-    at = Schedule.still(settings.time, STEP)
-    panel = _live_panel(staged, body.panels[0], lanes, at.dt)
+    at = Schedule.still(staging.settings.time, STEP)
+    panel = _live_panel(_played_cloth(staged, body.panels[0], at.dt), staging, lanes)
     scene = next(staged.scenes(staged.record(at), at))
     live = make_live_picture(scene, len(scene.models) - 1, SPARE)
     vertices, normals = panel.arrays["vertices"], panel.arrays["normals"]
@@ -136,35 +171,44 @@ def _with_picture(staged: StagedBody, lanes: int | None) -> LivePanel:
     )
 
 
-def _live_panel(
-    staged: StagedBody, panel: Panel, lanes: int | None, step: float = STEP
-) -> LivePanel:
+def _check_played(staging: Staging) -> None:
+    for kind in ("motion", "shape"):
+        if staging.style.has(kind):
+            raise OptionError(
+                f"a style with steps of {kind} cannot be played without Python; "
+                "use styles of materials and pictures only"
+            )
+    if staging.settings.pose != "cloth":
+        raise OptionError(f"pose {staging.settings.pose} has no cloth to play; use pose cloth")
+
+
+def _played_cloth(staged: StagedBody, panel: Panel, step: float = STEP) -> PlayedCloth:
     settings = staged.staging.settings
-    spec = cloth_spec(panel, settings, staged.body.solids)
     wind = wind_of(settings)
     sheltered = settings.placement == "wall" and isinstance(settings.wind, int | float)
-    lee = (1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0)
-    call = live_call(cloth_at_rest(spec, step), forces_of(settings, wind), wind, lee, lanes)
     columns, rows = settings.grid
-    shell = make_live_shell(
+    return PlayedCloth(
+        cloth_at_rest(cloth_spec(panel, settings, staged.body.solids), step),
+        forces_of(settings, wind),
+        wind,
         grid_shell(rows, columns, panel.uv_mapping),
-        panel.origin,
         settings.thickness * panel.texel,
-        staged.staging.light,
-        *turning_of(settings),
+        panel.origin,
+        (1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0),
+        header={"columns": columns, "rows": rows, "size": list(map(float, panel.size))},
     )
-    size = list(map(float, panel.size))
-    return make_live_panel(call, shell, {"columns": columns, "rows": rows, "size": size})
 
 
-def make_live_panel(call: LiveCall, shell: LiveShell, header: Mapping[str, Any]) -> LivePanel:
-    """The panel of a cloth and its shell. header: what hosts also want to know."""
+def _live_panel(cloth: PlayedCloth, staging: Staging, lanes: int | None) -> LivePanel:
+    call = live_call(cloth.moving, cloth.forces, cloth.wind, cloth.lee, lanes, cloth.motion)
     live, blown, plan, batch, substeps = call
+    turning = turning_of(staging.settings)
+    shell = make_live_shell(cloth.shell, cloth.place, cloth.thickness, staging.light, *turning)
     x, _, z = blown.velocity
     method = type(plan).__name__.removesuffix("Plan").lower()
     return LivePanel(
         {
-            **header,
+            **cloth.header,
             "step": float(live.dt[0]),
             "origin": shell.place.tolist(),
             "frame": _frame(shell).tolist(),
@@ -187,6 +231,14 @@ def make_live_panel(call: LiveCall, shell: LiveShell, header: Mapping[str, Any])
         },
         {"resolve": (lanes_contact.resolve, lanes_contact.EXAMPLE)},
     )
+
+
+def _with_figure(panel: LivePanel, figure: LiveFigure) -> LivePanel:
+    """The panel with a call that poses the wearer in the row of its table that is due."""
+    row = panel.calls["play"].arguments[0].row
+    call = LiveKernel("pose", pose_figure, (row, figure))
+    arrays = {"row": row, "figure": figure.vertices, "figureLight": figure.light}
+    return replace(panel, calls={**panel.calls, "pose": call}, arrays={**panel.arrays, **arrays})
 
 
 def _frame(shell: LiveShell) -> Array:

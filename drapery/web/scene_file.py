@@ -38,7 +38,8 @@ from drapery.scenes import (
     cloth_at_rest,
     cloth_spec,
     floor_under,
-    live_panels,
+    live_picture,
+    played_body,
     played_garment,
 )
 from drapery.settings import Settings, settled
@@ -47,7 +48,7 @@ from drapery.styles import Style
 from drapery.web.messages import MessageEncoder, pack, unpack
 from drapery.web.panes import Pane, ViewerState
 from drapery.web.wasm.module import module_info, read_module
-from drapery.web.wasm.plan import LANES, plans_of, plans_of_garment, write_plan
+from drapery.web.wasm.plan import LANES, plans_of, write_plan
 
 SWINGS = np.array(((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7)))
 """How far a light wind moves cloth from its rest position: to both sides, to the front [m]."""
@@ -77,7 +78,7 @@ def scene_bytes(
         scene[1]["still"] = _still(shown, settings)
     except OptionError as error:
         scene[0]["noPicture"] = f"the picture cannot be drawn in a page: {error}"
-    return _packed(scene, plans_of(body, settings))
+    return _packed(scene, plans_of(played_body(body, settings)))
 
 
 def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> bytes:
@@ -106,7 +107,7 @@ def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> b
             "skin": {"shown": [shown[runs[0][0]]], "area": skin},
             "cape": {"shown": [shown[start] for start, _ in header["grip"]], "area": cape},
         }
-    return _packed(scene, plans_of_garment(played))
+    return _packed(scene, plans_of(played.subject()))
 
 
 def _first_message(
@@ -136,7 +137,7 @@ def _still(body: Body, settings: Settings) -> NDArray[np.uint8]:
     """The plan of a picture, without its atlas. Raises OptionError for what needs Python."""
     if body.period:
         raise OptionError("animated textures need Python; use packs without them")
-    (panel,) = live_panels(body, settings, LANES, picture=True)
+    panel = live_picture(body, settings, LANES)
     panel.arrays["atlas"][:] = 0
     return np.frombuffer(write_plan(panel, module_info(read_module())), np.uint8)
 

@@ -65,7 +65,6 @@ places, types and lengths of the arrays and numbers that the loader uses, and th
 them, if it is not `play`; `module`: the hash of the sources for which it is valid. The order of a
 kernel's arguments in the image is that of numba's data models; nothing about it is written by hand.
 
-From Python: `drapery.web.wasm.plan.plans_of(body, settings)` gives the plans of a body's panels,
-`plans_of_garment(played)` those of a garment's cloths,
+From Python: `drapery.web.wasm.plan.plans_of(played)` gives the plans of a subject's cloths,
 and `drapery.web.wasm.module.read_module()` the module.
 """

@@ -17,7 +17,7 @@ if __name__ == "__main__":
 from drapery import Banner, Settings
 from drapery.garments import find_garment
 from drapery.packs import open_packs
-from drapery.scenes import live_garment, live_panels, played_garment
+from drapery.scenes import live_panels, live_picture, played_body, played_garment
 from drapery.style import body_of
 from drapery.web.wasm.build import METHODS
 from drapery.web.wasm.compiler import ExportedKernel, compile_module
@@ -34,12 +34,14 @@ def main(path: Path, methods: list[str]) -> None:
         options: Any = METHODS[method]
         settings = Settings(**options, light="game", time=0)
         if method == "player":
-            panel = live_garment(
-                played_garment(find_garment("cape"), open_packs(()), settings), LANES
-            )[0]
+            cape = played_garment(find_garment("cape"), open_packs(()), settings)
+            panel = live_panels(cape.subject(), LANES)[0]
         else:
             body = body_of(Banner.parse("white"), open_packs(()), settings)
-            panel = live_panels(body, settings, LANES, picture=method == "picture")[0]
+            if method == "picture":
+                panel = live_picture(body, settings, LANES)
+            else:
+                (panel,) = live_panels(played_body(body, settings), LANES)
         for call in panel.calls.values():
             kernels[call.name] = ExportedKernel(call.name, call.function, types_of(call.arguments))
             hashes[call.name] = types_hash(call.arguments)

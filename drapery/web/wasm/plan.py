@@ -4,9 +4,7 @@ import hashlib
 import json
 from typing import Any
 
-from drapery.scenes import LivePanel, PlayedGarment, live_garment, live_panels
-from drapery.settings import Settings
-from drapery.style import Body
+from drapery.scenes import LivePanel, PlayedSubject, live_panels
 from drapery.web.wasm.image import Image, WasmBuildError, types_of
 from drapery.web.wasm.module import module_info, read_module
 
@@ -25,22 +23,13 @@ WRITERS = {
 """The calls that write arrays which a host reads, where it is not `play`."""
 
 
-def plans_of(body: Body, settings: Settings, *, picture: bool = False) -> list[bytes]:
-    """The plans of a body's panels, in their order, at the start of the motion.
+def plans_of(played: PlayedSubject) -> list[bytes]:
+    """The plans of a subject's cloths, in their order, at the start of the motion.
 
-    picture: whether they also hold what draws the picture of the settings; see `live_panels`.
-    Raises OptionError for settings that cannot be played, and WasmBuildError without the module.
+    Raises OptionError for cloth that cannot be played, and WasmBuildError without the module.
     """
     info = module_info(read_module())
-    return [
-        write_plan(panel, info) for panel in live_panels(body, settings, LANES, picture=picture)
-    ]
-
-
-def plans_of_garment(played: PlayedGarment) -> list[bytes]:
-    """The plans of a garment's cloths, as `plans_of`."""
-    info = module_info(read_module())
-    return [write_plan(panel, info) for panel in live_garment(played, LANES)]
+    return [write_plan(panel, info) for panel in live_panels(played, LANES)]
 
 
 def write_plan(panel: LivePanel, info: dict[str, Any]) -> bytes:
