@@ -26,7 +26,14 @@ from benchmarks.quick import add_quick, needs
 from drapery import Banner, Settings
 from drapery.garments import dressed_player, make_wearer
 from drapery.packs import open_packs
-from drapery.scenes import LiveBody, LivePanel, live_panels, played_body, played_garment
+from drapery.scenes import (
+    LiveBody,
+    LivePanel,
+    live_panels,
+    played_body,
+    played_garment,
+    repeating_garment,
+)
 from drapery.style import Body, body_of
 from drapery.web.wasm.build import METHODS, build_module
 from drapery.web.wasm.module import module_info, module_places
@@ -128,15 +135,14 @@ def worn(wear: str, solver: Any) -> tuple[LivePanel, str, float]:
     """The last cloth on a walking player, its digest after STEPS steps in Python, and microseconds
     a step there."""
     garment = dressed_player(make_wearer(motion="walk", speed=1.5), wear=[wear])
-    dressed = played_garment(garment, open_packs(()), garment.settings(solver=solver))
-    sewn = dressed.cloths[-1]
-    drape = dressed.drape(sewn)
-    moving, forces, pins = drape.begin(dressed.step), drape.forces(None), drape.pins
+    dressed = repeating_garment(garment, open_packs(()), garment.settings(solver=solver))
+    drape, subject = dressed.drape(dressed.cloths[-1]), played_garment(dressed)
+    moving, forces, pins = subject.cloths[-1].moving, drape.forces(None), drape.pins
     moving.advance(forces, 1, pins)  # loads the kernels
     start = time.process_time()
     state = moving.advance(forces, STEPS, pins).state
     spent = (time.process_time() - start) / STEPS * 1e6
-    panel = live_panels(dressed.subject(), LANES)[-1]
+    panel = live_panels(subject, LANES)[-1]
     return panel, digest(state.positions[0], state.velocities[0]), spent
 
 

@@ -24,7 +24,7 @@ from drapery.garments import Garment, PlayerSettings, find_garment, garment_name
 from drapery.option import Output, Subject
 from drapery.packs import MemoryPack, open_packs
 from drapery.render import draw_scene
-from drapery.scenes import LiveBody, played_garment
+from drapery.scenes import LiveBody, first_scene, repeating_garment
 from drapery.settings import OPTIONS
 from drapery.style import body_of
 from drapery.styles import style_names
@@ -279,7 +279,7 @@ def _draw_played(request: Request) -> bytes:
         PlayerSettings(**request.what, wear=() if request.what["elytra"] else ("cape",))
     )
     settings = replace(player.settings(**request.options))
-    return _bytes(draw_scene(played_garment(player, open_packs(()), settings).first_scene()))
+    return _bytes(draw_scene(first_scene(repeating_garment(player, open_packs(()), settings))))
 
 
 def _save_model(request: Request) -> bytes:

@@ -26,7 +26,7 @@ from drapery.settings import NAMED_OPTIONS
 
 pytest.importorskip("nicegui")
 
-from drapery.scenes import played_garment
+from drapery.scenes import repeating_garment
 from drapery.studio.session import Session
 
 WATCHED = "outside-of-all-that-was-sent"
@@ -180,7 +180,7 @@ def test_a_garment_that_is_sent_names_no_file_of_the_studio(
                 garment = find_garment(path)
                 with suppress(DraperyError):  # such as a block that no pack has
                     session.adjust(**garment.picture)
-                    played_garment(garment, session.packs(), session.settings)
+                    repeating_garment(garment, session.packs(), session.settings)
     finally:
         session.close()
 

@@ -17,7 +17,7 @@ from wasm_player import WasmPlayer, built_module
 from drapery.errors import OptionError
 from drapery.garments import Garment, dressed_player, find_garment, make_wearer
 from drapery.packs import open_packs
-from drapery.scenes import PlayedGarment, live_panels, played_garment
+from drapery.scenes import Dressed, live_panels, played_garment, repeating_garment
 from drapery.style.skins import read_skin
 from drapery.web.messages import unpack
 from drapery.web.page import page_text
@@ -34,20 +34,20 @@ def player(wear: str = "cape", **fields: Any) -> Garment:
     return dressed_player(who, wear=[wear])
 
 
-def played(garment: Garment, **options: Any) -> PlayedGarment:
+def repeating(garment: Garment, **options: Any) -> Dressed:
     settings = garment.settings(solver="desbrun", **options)
-    return played_garment(garment, open_packs(()), settings)
+    return repeating_garment(garment, open_packs(()), settings)
 
 
 @pytest.mark.parametrize("wear", ["cape", "elytra"])
 def test_600_steps_on_a_walking_player_have_the_bits_of_python(wear: str) -> None:
-    worn = played(player(wear))
-    panel, sewn = live_panels(worn.subject(), LANES)[-1], worn.cloths[-1]
+    worn = repeating(player(wear))
+    panel, sewn = live_panels(played_garment(worn), LANES)[-1], worn.cloths[-1]
     here = WasmPlayer(built_module(), write_plan(panel, module_info(built_module())))
     here.step(599)
     here.step(1)
-    drape = worn.drape(sewn)
-    moving = drape.begin(worn.step).advance(drape.forces(None), 600, drape.pins)
+    drape, begun = worn.drape(sewn), played_garment(worn).cloths[-1].moving
+    moving = begun.advance(drape.forces(None), 600, drape.pins)
     assert np.array_equal(here.read("positions"), moving.state.positions[0].ravel())
     assert np.array_equal(here.read("velocities"), moving.state.velocities[0].ravel())
     here.run("cover")
@@ -57,10 +57,10 @@ def test_600_steps_on_a_walking_player_have_the_bits_of_python(wear: str) -> Non
 
 
 def test_the_legs_move_the_cape_and_the_figure_walks() -> None:
-    worn = played(player(speed=4.0))
-    free = played(player(speed=4.0).model_copy(update={"collisions": "none"}))
+    worn = repeating(player(speed=4.0))
+    free = repeating(player(speed=4.0).model_copy(update={"collisions": "none"}))
     info = module_info(built_module())
-    plans = [write_plan(live_panels(each.subject(), LANES)[0], info) for each in (worn, free)]
+    plans = [write_plan(live_panels(played_garment(each), LANES)[0], info) for each in (worn, free)]
     first, second = (WasmPlayer(built_module(), plan) for plan in plans)
     for each in (first, second):
         each.step(110)
@@ -73,7 +73,8 @@ def test_the_legs_move_the_cape_and_the_figure_walks() -> None:
 
 
 def test_poses_repeat_to_the_bit_after_their_ramp() -> None:
-    worn = played(player(motion="wave"))
+    worn = repeating(player(motion="wave"))
+    assert worn.cycle is not None
     first, period = worn.cycle
     assert first == 60
     assert worn.wearer is not None
@@ -92,7 +93,7 @@ def test_poses_repeat_to_the_bit_after_their_ramp() -> None:
 )
 def test_garments_that_cannot_be_played_are_refused(garment: Garment, reason: str) -> None:
     with pytest.raises(OptionError, match=reason):
-        live_panels(played(garment).subject())
+        live_panels(played_garment(repeating(garment)))
 
 
 def test_a_scene_of_a_player_names_its_textures() -> None:

@@ -10,6 +10,9 @@ from drapery.cloth.colliders import TablePath
 from drapery.mesh import Array
 from drapery.style.figure import Placed
 
+TICKS = 5040
+"""Poses that repeat are computed at so many moments of a time step, which most numbers of substeps
+divide."""
 KEPT = 4
 """Tables that are kept: boxes, pins and models ask for the same times one after another."""
 
@@ -32,6 +35,16 @@ class BonePoses:
     def path(self, bone: str) -> TablePath:
         """The path of a bone."""
         return TablePath(self.at, self.bones.index(bone))
+
+    def repeating(self, step: float, first: int, period: int) -> "BonePoses":
+        """The poses that repeat after `period` time steps [s] from step number `first` on."""
+
+        def table(times: Array) -> Array:
+            ticks, start = np.rint(times / step * TICKS), first * TICKS
+            repeated = start + (ticks - start) % (period * TICKS)
+            return self.at(np.where(ticks < start, ticks, repeated) * step / TICKS)
+
+        return BonePoses(self.bones, table)
 
     def __call__(self, time: float) -> dict[str, Placed]:
         """The pose of each bone at one time [s], by name."""

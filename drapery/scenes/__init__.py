@@ -23,7 +23,12 @@ if TYPE_CHECKING:
     from drapery.scenes.drawing import scene_frames
     from drapery.scenes.dressing import Dressed
     from drapery.scenes.exploded import exploded_view
-    from drapery.scenes.garment_playing import PlayedGarment, played_garment
+    from drapery.scenes.garment_playing import (
+        first_scene,
+        played_garment,
+        repeating_garment,
+        texture_areas,
+    )
     from drapery.scenes.parameters import SceneParameters
     from drapery.scenes.picture_grid import Picture, PictureGrid
     from drapery.scenes.playing import (
@@ -62,7 +67,6 @@ __all__ = [
     "Picture",
     "PictureGrid",
     "PlayedCloth",
-    "PlayedGarment",
     "PlayedSubject",
     "SceneEntry",
     "SceneParameters",
@@ -74,6 +78,7 @@ __all__ = [
     "cloth_spec",
     "exploded_view",
     "find_scene",
+    "first_scene",
     "floor_under",
     "flow",
     "live_panels",
@@ -82,11 +87,13 @@ __all__ = [
     "moments",
     "played_body",
     "played_garment",
+    "repeating_garment",
     "scene_frames",
     "scene_names",
     "stage",
     "still",
     "subject_of",
+    "texture_areas",
     "wind_of",
 ]
 
@@ -97,7 +104,12 @@ __getattr__, __dir__ = lazy_names(
         "scenes.drawing": ("scene_frames",),
         "scenes.dressing": ("Dressed",),
         "scenes.exploded": ("exploded_view",),
-        "scenes.garment_playing": ("PlayedGarment", "played_garment"),
+        "scenes.garment_playing": (
+            "first_scene",
+            "played_garment",
+            "repeating_garment",
+            "texture_areas",
+        ),
         "scenes.parameters": ("SceneParameters",),
         "scenes.picture_grid": ("Picture", "PictureGrid"),
         "scenes.playing": (

@@ -68,6 +68,8 @@ class Dressed:
     """A garment with its wearer, poles and blocks, ready to be simulated and drawn.
 
     period: of a loop [s]; None for other pictures.
+    cycle: time steps before the wearer repeats its motion, and after which it does; None where it
+        repeats nothing but the loop.
     Its methods raise OptionError and PackError.
     """
 
@@ -75,6 +77,7 @@ class Dressed:
     packs: Packs
     settings: Settings
     period: float | None = None
+    cycle: tuple[int, int] | None = None
 
     def check(self) -> None:
         """Raise OptionError or PackError if something cannot be drawn: an edge, file or block."""
@@ -100,7 +103,10 @@ class Dressed:
     @cached_property
     def wearer(self) -> Wearer | None:
         """Who wears it."""
-        return wearer_of(self.garment, self.packs, self.period)
+        found = wearer_of(self.garment, self.packs, self.period)
+        if found is None or self.cycle is None:
+            return found
+        return replace(found, poses=found.poses.repeating(self.step, *self.cycle))
 
     @cached_property
     def meshes(self) -> tuple[StiffMesh, ...]:
@@ -132,7 +138,7 @@ class Dressed:
     @property
     def step(self) -> float:
         """The longest time step [s]."""
-        return STEP if self.wearer is None else WORN_STEP
+        return STEP if self.garment.wearer is None else WORN_STEP
 
     @property
     def tolerance(self) -> float:
@@ -248,6 +254,11 @@ class Dressed:
         for time, worn in zip(times, moved_by_style(cloth, staging.style), strict=True):
             figure = self.wearer.models(time, self._bones) if self.wearer else ()
             yield [*self.fixed, *figure, *(tailored(each, staging.style) for each in worn)]
+
+    def figures(self) -> list[RiggedModel]:
+        """The models of the wearer at the start, which come directly before those of the cloths."""
+        models = self.wearer.models(0.0, self._bones) if self.wearer else ()
+        return [model for model in models if isinstance(model, RiggedModel)]
 
     @property
     def _bones(self) -> tuple[str, ...] | None:

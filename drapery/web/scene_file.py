@@ -37,10 +37,13 @@ from drapery.scenes import (
     Staging,
     cloth_at_rest,
     cloth_spec,
+    first_scene,
     floor_under,
     live_picture,
     played_body,
     played_garment,
+    repeating_garment,
+    texture_areas,
 )
 from drapery.settings import Settings, settled
 from drapery.style import Body, MaterialAt, body_of
@@ -86,9 +89,9 @@ def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> b
     settings = settled(settings, Subject("garment"), own=garment.picture)
     staging = Staging(settings)
     _check(staging.settings, staging.style, True)
-    played = played_garment(garment, packs, settings)
-    first, cloths = played.first_scene(), len(played.cloths)
-    last, figures = len(first.models) - cloths, len(played.figures())
+    worn = repeating_garment(garment, packs, settings)
+    first, cloths = first_scene(worn), len(worn.cloths)
+    last, figures = len(first.models) - cloths, len(worn.figures())
     grip = frozenset(range(last, len(first.models)))
     pane = Pane(first, lambda aspect: first.camera)
     scene = _first_message(ViewerState((pane,), grip=grip, live=True), staging.settings)
@@ -102,12 +105,12 @@ def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> b
         )
         first_layers = arrays["materials"].reshape(-1, 4)[:, 0]
         shown = first_layers[arrays["vertexMaterials"]].tolist()
-        skin, cape = played.texture_areas()
+        skin, cape = texture_areas(worn)
         header["textures"] = {
             "skin": {"shown": [shown[runs[0][0]]], "area": skin},
             "cape": {"shown": [shown[start] for start, _ in header["grip"]], "area": cape},
         }
-    return _packed(scene, plans_of(played.subject()))
+    return _packed(scene, plans_of(played_garment(worn)))
 
 
 def _first_message(

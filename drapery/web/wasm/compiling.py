@@ -17,7 +17,13 @@ if __name__ == "__main__":
 from drapery import Banner, Settings
 from drapery.garments import find_garment
 from drapery.packs import open_packs
-from drapery.scenes import live_panels, live_picture, played_body, played_garment
+from drapery.scenes import (
+    live_panels,
+    live_picture,
+    played_body,
+    played_garment,
+    repeating_garment,
+)
 from drapery.style import body_of
 from drapery.web.wasm.build import METHODS
 from drapery.web.wasm.compiler import ExportedKernel, compile_module
@@ -34,8 +40,8 @@ def main(path: Path, methods: list[str]) -> None:
         options: Any = METHODS[method]
         settings = Settings(**options, light="game", time=0)
         if method == "player":
-            cape = played_garment(find_garment("cape"), open_packs(()), settings)
-            panel = live_panels(cape.subject(), LANES)[0]
+            cape = repeating_garment(find_garment("cape"), open_packs(()), settings)
+            (panel,) = live_panels(played_garment(cape), LANES)
         else:
             body = body_of(Banner.parse("white"), open_packs(()), settings)
             if method == "picture":
