@@ -13,7 +13,7 @@ from source_modules import FOLDERS, ROOT, modules
 
 FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
-    *("aot", "jit_cache", "jit_calls", "jit_compiling", "kernel_sources"),
+    *("aot", "compile_beside", "jit_cache", "jit_calls", "jit_compiling", "kernel_sources"),
     *("lazy", "toml_text", "player_settings"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
     *("json_text", "model_faults", "file_formats"),
@@ -33,6 +33,7 @@ ALLOWED: dict[str, set[str]] = {
     "jit_cache": {"kernel_sources"},
     "jit_calls": set(),
     "jit_compiling": set(),
+    "compile_beside": set(),
     "lazy": set(),
     "jit": {"aot", "errors", "jit_cache", "jit_calls", "kernel_sources"},
     "mesh": {"errors"},
