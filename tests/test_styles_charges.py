@@ -107,3 +107,21 @@ def test_a_gradient_of_a_large_pack_is_one_too() -> None:
     )
     labels = charges_of(replace(material, layers=large)).labels
     assert np.array_equal(labels[::8, ::8], charges_of(material).labels)
+
+
+@pytest.mark.parametrize("charge", ["skull", "creeper", "rhombus", "flower"])
+def test_no_lead_goes_over_a_charge(charge: str) -> None:
+    given = material_of(f"white {charge}:red")
+    charged = charges_of(given).dyes[FRONT] == 14
+    inside = charged.copy()
+    for step in (1, -1):
+        for axis in (0, 1):
+            inside &= np.roll(charged, step, axis)
+    assert inside.any() or charge == "skull"
+    middle = styled("stained-glass", given)[:, :, 3:5, 3:5]
+    assert (middle[inside][..., 0] > 120).all()
+
+
+def test_a_plain_field_of_glass_is_in_diamonds() -> None:
+    dark = styled("stained-glass", material_of("white")).max(axis=-1) < 110
+    assert 0.05 < dark.mean() < 0.4

@@ -123,7 +123,9 @@ def large_pixel(height: int) -> int:
 def _places(side: int, step: int, each: int) -> NDArray[np.intp]:
     """`each` places along every `step` pixels of a side, evenly, shape [squares, each]."""
     first = np.arange(-(-side // step), dtype=np.intp)[:, None] * step
-    return np.minimum(first + (2 * np.arange(each) + 1) * step // (2 * each), side - 1)
+    inside: NDArray[np.intp] = (2 * np.arange(each, dtype=np.intp) + 1) * step // (2 * each)
+    places: NDArray[np.intp] = np.minimum(first + inside, side - 1)
+    return places
 
 
 def laid_over(words: Words, behind: Words) -> Words:

@@ -131,7 +131,7 @@ def stained_glass(
     pane: Annotated[int, Field(ge=2, le=20, description="side of a pane [texels]")] = 7,
     lead: Annotated[int, Field(ge=1, le=8, description="half width of the lead [1/8 texel]")] = 3,
 ) -> Material:
-    """Panes of bright glass in lead, which goes along the edges of colours and in diamonds."""
+    """Panes of bright glass in lead, which goes around charges; a wide field is in diamonds."""
     texels, fine = _enlarged(material, 8)
     charges = _charges(material, texels)
     flat, dyes = _mixed_dyes(charges), charges.dyes
@@ -139,12 +139,15 @@ def stained_glass(
     side = pane * fine
     one: Numbers = np.asarray((x + y // 2) // side)
     other: Numbers = np.asarray((x - y // 2 + 64 * side) // side)
-    came = _near(_borders(charges.labels) | _borders(one) | _borders(other), lead - 1)
+    field = dyes == _charges(replace(material, layers=material.layers[:2]), texels).dyes
+    wide = _opened(field, FIELD * fine)
+    one, other = one * wide, other * wide
+    shapes = _borders(charges.labels) | (_borders(one) | _borders(other)) & wide
+    came, core = _near(shapes, lead - 1), _near(shapes, max(lead - 3, 0))
     own = _noise((256, 256), 7)[one % 256, (other + 7 * dyes) % 256]
     streaks = _smooth_noise(texels.shape[:2], fine, 8)
     glow = 0.72 + 0.4 * own + 0.35 * (streaks - 0.5)
     glass = _vivid(flat, 1.35) * glow[..., None] + 26
-    core = _near(_borders(charges.labels) | _borders(one) | _borders(other), max(lead - 3, 0))
     metal = np.where(core[..., None], 92.0, 38.0) * np.array([0.95, 1.0, 1.05])
     colours = np.clip(np.where(came[..., None], metal, glass), 0, 255).astype(np.uint8)
     return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
@@ -210,6 +213,8 @@ def parchment(
     return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
 
 
+FIELD = 5
+"""The least width of a part of the field that glass divides into diamonds [texels]."""
 NAMES = tuple(DYES)
 """The names of the dyes by their numbers."""
 
@@ -252,17 +257,22 @@ def _mixed_dyes(charges: Charges) -> Array:
 
 def _lines(mark: str, spacing: int, width: Array) -> Array:
     """How much of each texel a kind of lines covers, 0 to 1. width: of the lines [texels]."""
-    y, x = np.indices(width.shape)
+    places = np.indices(width.shape)
+    y: Numbers = np.asarray(places[0])
+    x: Numbers = np.asarray(places[1])
     level, upright = _stripes(y, spacing, width), _stripes(x, spacing, width)
     if mark == "|":
         return upright
     if mark == "-":
         return level
     if mark == ".":
-        return upright * _stripes(y + x // spacing % 2 * (spacing // 2), spacing, width)
+        staggered: Numbers = np.asarray(y + x // spacing % 2 * (spacing // 2))
+        return np.multiply(upright, _stripes(staggered, spacing, width))
     if mark == ":":
-        return level * ((x + y // spacing % 2 * spacing) % (2 * spacing) < spacing)
-    return _stripes((x - y if mark == "\\" else x + y) / 2**0.5, spacing, width)
+        dashes: Marks = (x + y // spacing % 2 * spacing) % (2 * spacing) < spacing
+        return np.multiply(level, dashes)
+    slanting: Array = np.asarray((x - y if mark == "\\" else x + y) / 2**0.5)
+    return _stripes(slanting, spacing, width)
 
 
 def _stripes(place: Array | Numbers, spacing: int, width: Array) -> Array:
@@ -288,6 +298,14 @@ def _near(marks: Marks, distance: int) -> Marks:
         return marks
     near: Marks = binary_dilation(marks, np.ones((3, 3), np.bool_), distance)
     return near
+
+
+def _opened(marks: Marks, width: int) -> Marks:
+    """The marks that lie in a square of marks of about this width."""
+    from scipy.ndimage import binary_erosion
+
+    inner: Marks = binary_erosion(marks, np.ones((3, 3), np.bool_), max(1, width // 2))
+    return _near(inner, max(1, width // 2)) & marks
 
 
 def _bulge(place: Array | Numbers, width: int) -> Array:
