@@ -9,7 +9,7 @@ in the last bit where a processor cannot multiply and add at once.
 
 import math
 from collections.abc import Callable
-from math import copysign, floor, pi
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -23,19 +23,6 @@ def sine_of_turns(turns: Any) -> Any:
     square = angle * angle
     term = angle
     total = angle
-    for n in range(2, 20, 2):
-        term = -term * square / (n * (n + 1))
-        total = total + term
-    return total
-
-
-def sine_of_turn(turns: float) -> float:
-    """The bits of `sine_of_turns` for one number, in a quarter of the time."""
-    part = turns - floor(turns + 0.5)
-    part = copysign(0.25 - abs(abs(part) - 0.25), part)
-    angle = 2 * pi * part
-    square = angle * angle
-    term = total = angle
     for n in range(2, 20, 2):
         term = -term * square / (n * (n + 1))
         total = total + term

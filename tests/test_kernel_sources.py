@@ -108,29 +108,29 @@ def scratch(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     kernel_reach.forget()
 
 
-FOREIGN = Place("drapery.elementary", "sine_of_turn")
-IMPORT = "from drapery.elementary import sine_of_turn\n"
+FOREIGN = Place("drapery.elementary", "sine_of_turns")
+IMPORT = "from drapery.elementary import sine_of_turns\n"
 WAYS = {
-    "a name": IMPORT + "@kernel\ndef k(x):\n    return sine_of_turn(x)",
-    "another name": "from drapery.elementary import sine_of_turn as s\n"
+    "a name": IMPORT + "@kernel\ndef k(x):\n    return sine_of_turns(x)",
+    "another name": "from drapery.elementary import sine_of_turns as s\n"
     "@kernel\ndef k(x):\n    return s(x)",
-    "an alias": IMPORT + "s = sine_of_turn\n@kernel\ndef k(x):\n    return s(x)",
+    "an alias": IMPORT + "s = sine_of_turns\n@kernel\ndef k(x):\n    return s(x)",
     "a module": "from drapery import elementary as e\n"
-    "@kernel\ndef k(x):\n    return e.sine_of_turn(x)",
+    "@kernel\ndef k(x):\n    return e.sine_of_turns(x)",
     "a whole path": "import drapery.elementary\n"
-    "@kernel\ndef k(x):\n    return drapery.elementary.sine_of_turn(x)",
-    "a kernel made of it": "from drapery import elementary as e\nk = kernel(e.sine_of_turn)",
-    "one that borrows": IMPORT + "@borrowing_kernel\ndef k(x):\n    return sine_of_turn(x)",
-    "an entry point": IMPORT + "@entry_point\ndef k(x):\n    return sine_of_turn(x)",
+    "@kernel\ndef k(x):\n    return drapery.elementary.sine_of_turns(x)",
+    "a kernel made of it": "from drapery import elementary as e\nk = kernel(e.sine_of_turns)",
+    "one that borrows": IMPORT + "@borrowing_kernel\ndef k(x):\n    return sine_of_turns(x)",
+    "an entry point": IMPORT + "@entry_point\ndef k(x):\n    return sine_of_turns(x)",
     "a renamed decorator": "from drapery.jit import kernel as c\nd: object = c\n"
     + IMPORT
-    + "@d\ndef k(x):\n    return sine_of_turn(x)",
+    + "@d\ndef k(x):\n    return sine_of_turns(x)",
     "numba's own": "from numba.extending import overload\n"
     + IMPORT
-    + "@overload(len)\ndef k(x):\n    return lambda: sine_of_turn(x)",
-    "another kernel": IMPORT + "@kernel\ndef h(x):\n    return sine_of_turn(x)\n"
+    + "@overload(len)\ndef k(x):\n    return lambda: sine_of_turns(x)",
+    "another kernel": IMPORT + "@kernel\ndef h(x):\n    return sine_of_turns(x)\n"
     "@kernel\ndef k(x):\n    return h(x)",
-    "a table": IMPORT + "TABLE = (sine_of_turn,)\n@kernel\ndef k(x):\n    return TABLE[0](x)",
+    "a table": IMPORT + "TABLE = (sine_of_turns,)\n@kernel\ndef k(x):\n    return TABLE[0](x)",
     "another module": "from drapery.scratch.other import s\n@kernel\ndef k(x):\n    return s(x)",
 }
 
@@ -138,7 +138,7 @@ WAYS = {
 @pytest.mark.parametrize("way", WAYS)
 def test_what_a_kernel_refers_to_is_found_however_it_is_named(way: str, scratch: Path) -> None:
     head = "from drapery.jit import borrowing_kernel, entry_point, kernel\n"
-    (scratch / "other.py").write_text("from drapery.elementary import sine_of_turn as s\n")
+    (scratch / "other.py").write_text("from drapery.elementary import sine_of_turns as s\n")
     (scratch / "whole.py").write_text(head + WAYS[way] + "\n")
     (kernel,) = (one for one in kernels("drapery.scratch.whole") if one.name == "k")
     assert FOREIGN in reached(kernel)

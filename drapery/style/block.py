@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from drapery.elementary import cos, sin, sine_of_turn
+from drapery.elementary import cos, sin, sine_of_turns
 from drapery.mesh import Array, Mesh
 from drapery.style.board import moved, stiff_board, tilted
 from drapery.style.body import Solid, half_space
@@ -116,4 +116,4 @@ def stiff_flag(placement: Placement, phase: float, thickness: float = 1.0) -> Me
 
 def sway_angle(phase: float) -> float:
     """The flag's rotation about the model's x axis at its top edge [radians]."""
-    return float((-0.0125 + 0.01 * sine_of_turn(phase + 0.25)) * np.pi)
+    return float((-0.0125 + 0.01 * sine_of_turns(phase + 0.25)) * np.pi)
