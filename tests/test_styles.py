@@ -569,7 +569,7 @@ def test_large_pixels_grow_with_the_picture(height: int, side: int) -> None:
 
 
 def test_pixel_art_keeps_the_colours_of_a_small_design() -> None:
-    """At 128 pixels, inside of the outline; they were off by 41 to 74 levels."""
+    """At 128 pixels, inside of the outline, which takes a share of so small a picture."""
     for design in ("red rhombus:yellow", "black creeper:gray border:black", "white"):
         given = {"size": (96, 128), "time": 2.0, "grid": (9, 17), "ground": "none"}
         banner = Banner.parse(design)

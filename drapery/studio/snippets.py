@@ -269,7 +269,7 @@ def _names(request: ExportRequest) -> tuple[str, ...]:
         subject = request.settings.subject(request.banner.kind if request.banner else "banner")
     names = applicable(subject, OUTPUTS[request.kind])
     # A 3-D file that waves holds a loop.
-    moves = "loop" if request.kind in MOVING else None
+    moves: Output | None = "loop" if request.kind in MOVING else None
     return tuple(name for name in names if OPTIONS[name].applies(subject, moves))
 
 
