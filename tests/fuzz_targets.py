@@ -247,10 +247,11 @@ def _query_reader() -> Callable[[str], Iterable[Any]]:
     def read(text: str) -> Iterable[Any]:
         query = parse_query(text.encode("utf-8", "surrogatepass"))
         requests = [read_request(query, ending, config) for ending in (".png", ".gif")]
-        for reasons in requests:
-            if isinstance(reasons, list):
+        taken = [each for each in requests if not isinstance(each, list)]
+        for reasons in requests:  # some options are of stills alone
+            if isinstance(reasons, list) and not taken:
                 raise OptionError(reasons[0])
-        return requests
+        return taken
 
     return read
 

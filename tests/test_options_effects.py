@@ -122,7 +122,10 @@ SHOWN = {
     ),
     "garment": Shown(RUG, same=OWN),
     "player": Shown(
-        player_of(PlayerSettings(wear=("cape",), motion="stand")), {}, {"samples": 1}, OWN
+        player_of(PlayerSettings(wear=("cape",), motion="stand")),
+        {},
+        {"samples": 1},
+        OWN | {"texture": "its cloth is that of garments over it"},
     ),
 }
 OUTPUTS: tuple[Output, ...] = ("still", "loop", "model")
