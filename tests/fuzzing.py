@@ -32,6 +32,7 @@ from drapery.banner.formats import (
     write_banner,
 )
 from drapery.banner.formats.binary import BINARY_FORMS
+from drapery.banner.formats.block_box import row_of
 from drapery.errors import DraperyError
 
 MAX_SECONDS = 10.0
@@ -404,7 +405,9 @@ def binary_samples() -> dict[str, list[bytes]]:
     schematics = [make.schem(version, (2, 2, 4), blocks, 3) for version in (1, 2, 3)]
     return {
         "structure": [structure.write([make.RED]), make.nbt_file(make.structure(blocks))],
-        "schem": [schem.write([make.LIME, make.RED]), *map(make.nbt_file, schematics)],
+        "schem": [schem.write(row_of([make.LIME, make.RED])), *map(make.nbt_file, schematics)],
+        "schem3": [schem.write(row_of([make.LIME, make.RED]), version=3)],
+        "schematic": [make.nbt_file(make.mcedit((2, 2, 4), make.RED, (1, 0, 3)), "Schematic")],
         "litematic": [make.nbt_file(make.litematic((2, -2, 4), (0, 0, 0), blocks, 20))],
         "mcstructure": [make.raw_nbt(make.mcstructure((2, 3, 4), bedrock), "little")],
         "blueprint": [make.nbt_file(make.blueprint((2, 2, 4), blocks))],

@@ -25,7 +25,7 @@ LIMITS = re.compile(r"\b(over|most|least|up to|too (many|much|large)|use [012] t
 SEVERAL = {
     "drapery/banner/formats/planet_minecraft.py": {"len(code)"},  # an even number
     "drapery/banner/formats/registry.py": {"len(found)"},  # banners that differ
-    "drapery/banner/formats/schem.py": {"len(banners)"},  # too many
+    "drapery/banner/formats/block_box.py": {"len(banners)"},  # too many
     "drapery/banner/names.py": {"value.bit_length()"},
     "drapery/banner/packs/stack.py": {"kind"},  # the name of a kind
     "drapery/banner/packs/zips.py": {"entry.file_size"},  # too many

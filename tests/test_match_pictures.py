@@ -173,11 +173,13 @@ def test_a_mural_is_written_as_schematic_and_function(tmp_path: Path) -> None:
     texts = ["red", "white creeper:lime", "blue border:black", "lime"]
     banners = tuple(map(Banner.parse, texts))
     mural = Mural(2, 2, banners)
-    (tmp_path / "mural.schem").write_bytes(mural.schematic())
-    found = read_designs(str(tmp_path / "mural.schem"))
-    assert {one.where.split()[-1]: one.banner for one in found} == dict(
-        zip(("0,3,1", "1,3,1", "0,1,1", "1,1,1"), banners, strict=True)
-    )
+    for form, ending in (("schem", "schem"), ("schem3", "schem"), ("litematic", "litematic")):
+        path = tmp_path / f"mural.{ending}"
+        path.write_bytes(mural.schematic(form))
+        found = read_designs(str(path))
+        assert {one.where.split()[-1]: one.banner for one in found} == dict(
+            zip(("0,3,1", "1,3,1", "0,1,1", "1,1,1"), banners, strict=True)
+        )
     (tmp_path / "mural.mcfunction").write_text(mural.function(), encoding="utf-8")
     again = read_designs(str(tmp_path / "mural.mcfunction"))
     assert [one.banner for one in again] == list(banners)
@@ -232,6 +234,9 @@ def test_the_command_makes_a_mural(
         (("--mural", "4"), "not two whole numbers"),
         (("--mural", "0x3"), "1 to 1024 banners"),
         (("--mural", "1x1", "-o", "a.doc"), "ends in none of"),
+        (("--mural", "1x1", "-o", "a.schematic"), "ends in none of"),
+        (("--mural", "1x1", "--as", "give"), "use one of: schem, schem3"),
+        (("--mural", "1x1", "--as", "schem3"), "add -o wall.schem"),
         (("--mural", "1x1", "--json"), "--json does not apply to a mural"),
         (("--layers", "17"), "layers"),
         (("--crop", "0,0,4,8"), "one colour only; the nearest dye is red"),

@@ -150,6 +150,18 @@ def schem(
     return root | {"Palette": palette, "BlockData": data, key: entities}
 
 
+def mcedit(size: tuple, banner: Banner, place: tuple) -> dict:
+    """A schematic of MCEdit, full of standing banners of which one has a block entity."""
+    count = size[0] * size[1] * size[2]
+    return {
+        **dict(zip(("Width", "Height", "Length"), map(Short, size), strict=True)),
+        "Materials": "Alpha",
+        "Blocks": ByteArray([-80] * count),
+        "Data": ByteArray([0] * count),
+        "TileEntities": [entity(banner, "1.12") | dict(zip("xyz", place, strict=True))],
+    }
+
+
 def packed(numbers: list[int], bits: int, spanning: bool) -> LongArray:
     """Palette indices in longs, by one big integer: spanning, or whole indices a long."""
     per_long = 64 // bits

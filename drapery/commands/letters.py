@@ -41,7 +41,7 @@ def run(
             "-o",
             "--out",
             metavar="FILE",
-            help="The row as a picture, or as .schem, .nbt or .mcstructure.",
+            help="The row as a picture, or as .schem, .litematic, .nbt or .mcstructure.",
         ),
     ] = None,
     cloth: Annotated[bool, typer.Option("--cloth", help="Draw cloth, not plain faces.")] = False,

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 MURAL_EFFORT = 8
 """The effort for each banner of a mural, unless one is given."""
 
-MURAL_ENDINGS = (".schem", ".mcfunction")
+MURAL_ENDINGS = (".schem", ".litematic", ".mcfunction")
 
-NOT_FOR_MURALS = ("alternatives", "mask", "weighting", "photo", "corners", "written", "as_json")
+NOT_FOR_MURALS = ("alternatives", "mask", "weighting", "photo", "corners", "as_json")
 NOT_FOR_PHOTOS = ("effort", "fit", "crop", "background", "mask", "weighting")
 """Parameters of the command that murals and photos do not use."""
 
@@ -34,7 +34,7 @@ OutOption = Annotated[
         "--out",
         metavar="FILE",
         help="The picture beside the banners, or a page. With --mural: a picture,"
-        " .mcfunction or .schem; several files may be given.",
+        " .mcfunction, .schem or .litematic; several files may be given.",
     ),
 ]
 LayersOption = Annotated[
@@ -86,7 +86,12 @@ CornersOption = Annotated[
 ]
 FormOption = Annotated[
     str | None,
-    typer.Option("--as", metavar="FORM", help="Print the best design as give, json, ..."),
+    typer.Option(
+        "--as",
+        metavar="FORM",
+        help="Print the best design as give, json, ... With --mural: schem or schem3, the version"
+        " of a .schem file.",
+    ),
 ]
 JsonOption = Annotated[
     bool, typer.Option("--json", help="Print the designs and their errors as JSON.")
@@ -123,6 +128,7 @@ def run(
     is_photo = photo or corners is not None
     if mural is not None:
         _refuse(context, NOT_FOR_MURALS, "a mural")
+        _check_version(written, out or [])
     elif is_photo:
         _refuse(context, NOT_FOR_PHOTOS, "a photo")
     size = None if mural is None else _checked_size(mural)
@@ -139,7 +145,8 @@ def run(
     if effort is not None:
         wanted["effort"] = effort
     if size is not None:
-        _save_mural(_matched_mural(pixels, size, opened, framing, wanted), out or [], opened)
+        made = _matched_mural(pixels, size, opened, framing, wanted)
+        _save_mural(made, out or [], opened, written)
     else:
         wanted["alternatives"] = alternatives
         if is_photo:
@@ -163,6 +170,18 @@ def _refuse(context: typer.Context, names: tuple[str, ...], what: str) -> None:
     for name in names:
         if is_given(context, name):
             raise OptionError(f"{flags[name]} does not apply to {what}; leave it out")
+
+
+def _check_version(form: str | None, paths: list[Path]) -> None:
+    """Raises OptionError for a form that no file of a mural has."""
+    from drapery.errors import OptionError
+    from drapery.option import one_of
+
+    if form is None:
+        return
+    one_of("--as of a mural", form, ("schem", "schem3"))
+    if not any(path.suffix.lower() == ".schem" for path in paths):
+        raise OptionError(f"--as {form} is the version of a .schem file; add -o wall.schem")
 
 
 def _check_targets(paths: list[Path], *, is_mural: bool) -> None:
@@ -275,8 +294,8 @@ def _matched_mural(
     return Mural(*size, tuple(one.banner for one in found))
 
 
-def _save_mural(made: "Mural", paths: list[Path], packs: "Packs") -> None:
-    """Print the materials of a mural, and write its files."""
+def _save_mural(made: "Mural", paths: list[Path], packs: "Packs", form: str | None) -> None:
+    """Print the materials of a mural, and write its files. form: of `.schem`."""
     from drapery.render import replacing
 
     for item in made.materials():
@@ -286,7 +305,12 @@ def _save_mural(made: "Mural", paths: list[Path], packs: "Packs") -> None:
         if ending not in MURAL_ENDINGS:
             made.picture(packs).save(path)
             continue
-        data = made.schematic() if ending == ".schem" else made.function().encode()
+        if ending == ".mcfunction":
+            data = made.function().encode()
+        elif ending == ".litematic":
+            data = made.schematic("litematic")
+        else:
+            data = made.schematic("schem3" if form == "schem3" else "schem")
         with replacing(path) as target:
             target.write_bytes(data)
 

@@ -21,7 +21,12 @@ def run(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option("-o", "--out", metavar="FILE", help="The file to write, as .nbt, .schem, ..."),
+        typer.Option(
+            "-o",
+            "--out",
+            metavar="FILE",
+            help="The file to write, as .nbt, .schem, .litematic, ...",
+        ),
     ] = None,
     show_list: Annotated[
         bool, typer.Option("--list", help="List all banners, one on each line, with their numbers.")

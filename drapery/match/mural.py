@@ -3,13 +3,14 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from drapery.banner import Banner, CraftingItem, crafting_items
+from drapery.banner.formats.block_box import AIR, BlockBox
 from drapery.banner.formats.snbt import write_snbt
 from drapery.banner.formats.tree import names
-from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode
 from drapery.banner.packs import Packs
 from drapery.errors import OptionError, counted
 from drapery.match.art import HEIGHT, WIDTH
@@ -61,35 +62,24 @@ class Mural:
             lines.append(f"setblock ~{x} ~{y} ~1 {_block(banner)}{entity}")
         return "\n".join(lines) + "\n"
 
-    def schematic(self) -> bytes:
-        """A `.schem` file, version 3: the wall at the north, and the banners in front of it."""
-        from nbtlib import ByteArray, IntArray, Short
+    def schematic(self, form: Literal["schem", "schem3", "litematic"] = "schem") -> bytes:
+        """The file of the wall with the banners in front of it, in a form of schematics.
 
-        height, states = 2 * self.down, ["minecraft:air", WALL]
-        states += dict.fromkeys(map(_block, self.banners))
-        blocks = np.zeros((height, 2, self.across), np.int64)
-        entities = []
+        form: `schem` is Sponge's version 2, `schem3` its version 3.
+        """
+        from drapery.banner.formats.binary import BOX_WRITERS
+
+        return BOX_WRITERS[form](self._build())
+
+    def _build(self) -> BlockBox:
+        """The wall at the north, and the banners at its south."""
+        states = [AIR, WALL, *dict.fromkeys(map(_block, self.banners))]
+        blocks = np.zeros((2 * self.down, 2, self.across), np.int64)
+        banners = {}
         for (x, y), banner in zip(self._places(), self.banners, strict=True):
             blocks[y, 0, x], blocks[y, 1, x] = 1, states.index(_block(banner))
-            place = IntArray([x, y, 1])
-            entities.append({"Id": "minecraft:banner", "Pos": place, "Data": block_entity(banner)})
-        palette = {state: number for number, state in enumerate(states)}
-        return encode(
-            {
-                "Schematic": {
-                    "Version": 3,
-                    "DataVersion": DATA_VERSION,
-                    "Width": Short(self.across),
-                    "Height": Short(height),
-                    "Length": Short(2),
-                    "Blocks": {
-                        "Palette": palette,
-                        "Data": ByteArray(blocks.reshape(-1)),
-                        "BlockEntities": entities,
-                    },
-                }
-            }
-        )
+            banners[x, y, 1] = banner
+        return BlockBox(tuple(states), blocks, banners)
 
     def materials(self) -> tuple[CraftingItem, ...]:
         """All that the banners take to make by hand; each pattern item is made once."""

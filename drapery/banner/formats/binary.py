@@ -2,9 +2,11 @@
 
 import io
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 from drapery.banner.design import Banner
 from drapery.banner.formats import blueprint, litematic, mcstructure, region, schem, structure
+from drapery.banner.formats.block_box import BlockBox, row_of
 from drapery.banner.formats.compression import is_compressed
 from drapery.banner.formats.files import find_in_bytes
 from drapery.banner.formats.form import BinaryForm
@@ -56,6 +58,18 @@ def _read_region(data: bytes) -> Iterator[FoundBanner]:
     return region.find(io.BytesIO(data), "", region.NAME)
 
 
+BOX_WRITERS: dict[str, Callable[[BlockBox], bytes]] = {
+    "schem": schem.write,
+    "schem3": partial(schem.write, version=3),
+    "litematic": litematic.write,
+}
+"""What writes any blocks as a schematic, by the name of its form."""
+
+
+def _in_a_row(form: str) -> Callable[[Banner], bytes]:
+    return lambda banner: BOX_WRITERS[form](row_of([banner]))
+
+
 _TABLE = (
     _nbt_form(
         structure.NAME,
@@ -69,11 +83,28 @@ _TABLE = (
     _nbt_form(
         schem.NAME,
         "Sponge schematic",
-        (".schem", ".schematic"),
+        (".schem",),
         schem.recognises,
         schem.find,
         "https://github.com/SpongePowered/Schematic-Specification",
-        lambda banner: schem.write([banner]),
+        _in_a_row("schem"),
+    ),
+    _nbt_form(
+        "schem3",
+        "Sponge schematic of version 3",
+        (".schem",),
+        schem.recognises,
+        schem.find,
+        "https://github.com/SpongePowered/Schematic-Specification",
+        _in_a_row("schem3"),
+    ),
+    _nbt_form(
+        "schematic",
+        "MCEdit schematic with numeric ids",
+        (".schematic",),
+        schem.recognises,
+        schem.find,
+        "https://minecraft.wiki/w/Schematic_file_format",
     ),
     _nbt_form(
         litematic.NAME,
@@ -82,6 +113,7 @@ _TABLE = (
         litematic.recognises,
         litematic.find,
         "https://github.com/maruohon/litematica",
+        _in_a_row("litematic"),
     ),
     _nbt_form(
         mcstructure.NAME,
@@ -119,7 +151,8 @@ BINARY_FORMS: dict[str, BinaryForm] = {form.name: form for form in _TABLE}
 """Every form of files by name. A file is read by the first form that recognises it."""
 
 BLOCK_WRITERS: dict[str, Callable[[Sequence[Banner]], bytes]] = {
-    ".schem": schem.write,
+    ".schem": lambda banners: schem.write(row_of(banners)),
+    ".litematic": lambda banners: litematic.write(row_of(banners)),
     ".nbt": structure.write,
     ".mcstructure": mcstructure.write,
 }

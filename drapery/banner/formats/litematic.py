@@ -6,6 +6,9 @@ next; x is fastest, then z, then y. A size may be negative: the box then extends
 
 from collections.abc import Iterator
 
+import numpy as np
+
+from drapery.banner.formats.block_box import BlockBox, state_tree
 from drapery.banner.formats.blocks import (
     OnError,
     Spot,
@@ -21,13 +24,24 @@ from drapery.banner.formats.blocks import (
     spot,
 )
 from drapery.banner.formats.found import FoundBanner
-from drapery.banner.formats.palettes import bits_for, longs_needed, names_in_box, packed_pieces
+from drapery.banner.formats.palettes import (
+    bits_for,
+    longs_needed,
+    names_in_box,
+    pack,
+    packed_pieces,
+)
 from drapery.banner.formats.tree import DataTree
+from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode
 from drapery.banner.names import shown
 from drapery.errors import DesignError, counted
 
 NAME = "litematic"
 LEAST_BITS = 2
+VERSION = 7
+"""The layout since Java 1.20.5."""
+REGION = "banners"
+"""The name of what is written, and of its box."""
 
 
 def recognises(tree: dict[str, DataTree]) -> bool:
@@ -90,3 +104,51 @@ def _corner(position: Spot, size: Spot) -> Spot:
 
 def _sum(a: Spot, b: Spot) -> Spot:
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def write(build: BlockBox) -> bytes:
+    """A compressed schematic of one box, without a time, so that equal builds are equal files."""
+    from nbtlib import Long
+
+    filled = int(np.count_nonzero(build.blocks))
+    metadata = {
+        "Name": REGION,
+        "Author": "",
+        "Description": "",
+        "EnclosingSize": _axes(build.size),
+        "RegionCount": 1,
+        "TotalBlocks": filled,
+        "TotalVolume": build.blocks.size,
+        "TimeCreated": Long(0),
+        "TimeModified": Long(0),
+    }
+    return encode(
+        {
+            "Version": VERSION,
+            "SubVersion": 1,
+            "MinecraftDataVersion": DATA_VERSION,
+            "Metadata": metadata,
+            "Regions": {REGION: _box(build)},
+        }
+    )
+
+
+def _box(build: BlockBox) -> dict[str, DataTree]:
+    from nbtlib import LongArray
+
+    packed = pack(build.blocks.ravel(), bits_for(len(build.states), LEAST_BITS))
+    entities = [block_entity(each) | _axes(place) for place, each in build.banners.items()]
+    return {
+        "Position": _axes((0, 0, 0)),
+        "Size": _axes(build.size),
+        "BlockStatePalette": [state_tree(state) for state in build.states],
+        "BlockStates": LongArray(packed),
+        "TileEntities": entities,
+        "Entities": [],
+        "PendingBlockTicks": [],
+        "PendingFluidTicks": [],
+    }
+
+
+def _axes(place: Spot) -> dict[str, DataTree]:
+    return dict(zip("xyz", place, strict=True))

@@ -122,6 +122,13 @@ def unpack(
     return ((low | high) & np.uint64((1 << bits) - 1)).astype(np.int64)
 
 
+def pack(indices: NDArray[np.int64], bits: int) -> NDArray[np.int64]:
+    """A spanning array of longs, as `unpack` reads it."""
+    spread = (indices[:, None] >> np.arange(bits)) & 1
+    packed = np.packbits(spread.astype(np.uint8).ravel(), bitorder="little")
+    return np.pad(packed, (0, -len(packed) % 8)).view("<i8").astype(np.int64)
+
+
 def packed_pieces(longs: NDArray[np.int64], bits: int, count: int) -> Pieces:
     """All `count` indices of a spanning array of longs, a piece at a time."""
     for first in range(0, count, PIECE):

@@ -325,7 +325,7 @@ def binary_forms() -> dict[str, BinaryForm]:
 def write_blocks(banners: Sequence[Banner], suffix: str) -> bytes | None:
     """A file of blocks with the banners standing in a row to the east, to read from the south.
 
-    suffix: .schem, .nbt or .mcstructure; None comes back for another one.
+    suffix: .schem, .litematic, .nbt or .mcstructure; None comes back for another one.
     Raises DesignError for shields, which are not blocks, and for too many banners.
     """
     from drapery.banner.formats.binary import BLOCK_WRITERS

@@ -5,9 +5,10 @@ varints, x fastest, then z, then y.
 https://github.com/SpongePowered/Schematic-Specification
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
+from typing import Literal
 
-from drapery.banner.design import Banner
+from drapery.banner.formats.block_box import BlockBox
 from drapery.banner.formats.blocks import (
     OnError,
     Spot,
@@ -23,8 +24,7 @@ from drapery.banner.formats.blocks import (
 from drapery.banner.formats.found import FoundBanner
 from drapery.banner.formats.palettes import names_in_box, varint_pieces
 from drapery.banner.formats.tree import DataTree, state_id
-from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode, placeable
-from drapery.errors import DesignError
+from drapery.banner.formats.write_nbt import DATA_VERSION, block_entity, encode
 
 NAME = "schem"
 
@@ -88,31 +88,64 @@ def _size(root: dict[str, DataTree], where: str) -> Spot:
     return width & 0xFFFF or 1, height & 0xFFFF or 1, length & 0xFFFF or 1
 
 
-def write(banners: Sequence[Banner]) -> bytes:
-    """A schematic of version 3, compressed: standing banners in a row to the east.
+def write(build: BlockBox, version: Literal[2, 3] = 2) -> bytes:
+    """A compressed schematic, whose lowest corner is pasted where the player stands.
 
-    Raises DesignError for shields, which are not blocks, and for over 32767 banners.
+    version: 2 is read by all programs that read schematics, 3 by newer ones.
     """
-    from nbtlib import ByteArray, IntArray, Short
+    from nbtlib import IntArray, Short
 
-    if len(banners) > 0x7FFF:
-        raise DesignError(f"{len(banners)} banners do not fit in a schematic; write fewer at once")
-    bases = list(dict.fromkeys(placeable(banner).base for banner in banners))
-    palette = {f"minecraft:{base}_banner[rotation=0]": n for n, base in enumerate(bases)}
-    entities = [
-        {"Id": "minecraft:banner", "Pos": IntArray([x, 0, 0]), "Data": block_entity(banner)}
-        for x, banner in enumerate(banners)
-    ]
-    data = ByteArray([bases.index(banner.base) for banner in banners])
-    return encode(
-        {
-            "Schematic": {
-                "Version": 3,
-                "DataVersion": DATA_VERSION,
-                "Width": Short(len(banners)),
-                "Height": Short(1),
-                "Length": Short(1),
-                "Blocks": {"Palette": palette, "Data": data, "BlockEntities": entities},
-            }
-        }
-    )
+    width, height, length = map(Short, build.size)
+    origin = [0, 0, 0]
+    head = {
+        "Version": version,
+        "DataVersion": DATA_VERSION,
+        "Metadata": dict(zip(("WEOffsetX", "WEOffsetY", "WEOffsetZ"), origin, strict=True)),
+        "Width": width,
+        "Height": height,
+        "Length": length,
+        "Offset": IntArray(origin),
+    }
+    if version == 3:
+        return encode({"Schematic": head | {"Blocks": _blocks_of_3(build)}})
+    return encode(head | _blocks_of_2(build), name="Schematic")
+
+
+def _blocks_of_2(build: BlockBox) -> dict[str, DataTree]:
+    """The keys of version 2, where the game's own keys of an entity lie beside its place."""
+    return {
+        "PaletteMax": len(build.states),
+        "Palette": _palette(build),
+        "BlockData": _data(build),
+        "BlockEntities": [head | inner for head, inner in _entities(build)],
+        "Entities": [],
+    }
+
+
+def _blocks_of_3(build: BlockBox) -> dict[str, DataTree]:
+    """The compound of version 3, where the game's own keys of an entity lie under `Data`."""
+    return {
+        "Palette": _palette(build),
+        "Data": _data(build),
+        "BlockEntities": [head | {"Data": inner} for head, inner in _entities(build)],
+    }
+
+
+def _palette(build: BlockBox) -> dict[str, DataTree]:
+    return {state: number for number, state in enumerate(build.states)}
+
+
+def _data(build: BlockBox) -> DataTree:
+    """Every block as one byte: the states are fewer than 128, as there are 16 dyes."""
+    from nbtlib import ByteArray
+
+    return ByteArray(build.blocks.ravel())
+
+
+def _entities(build: BlockBox) -> Iterator[tuple[dict[str, DataTree], dict[str, DataTree]]]:
+    """The id and place of each banner, and the game's own keys of its block entity."""
+    from nbtlib import IntArray
+
+    for place, banner in build.banners.items():
+        inner = block_entity(banner)
+        yield {"Id": inner.pop("id"), "Pos": IntArray(place)}, inner

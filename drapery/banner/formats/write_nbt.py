@@ -15,15 +15,17 @@ DATA_VERSION = 3953
 """The version of Java 1.21. Later versions read its banners too."""
 
 
-def encode(tree: dict[str, DataTree], order: Literal["big", "little"] = "big") -> bytes:
-    """The bytes of a tree; Java's compressed, Bedrock's not.
+def encode(
+    tree: dict[str, DataTree], order: Literal["big", "little"] = "big", name: str = ""
+) -> bytes:
+    """The bytes of a tree; Java's compressed, Bedrock's not. name: of the root.
 
     Ints are written as TAG_Int and bools as TAG_Byte; nbtlib's own tags are written unchanged.
     """
     from nbtlib import Compound
 
     raw = io.BytesIO()
-    Compound({"": tag(tree)}).write(raw, order)
+    Compound({name: tag(tree)}).write(raw, order)
     # A file is the one entry of a compound, without the tag that would close the compound.
     data = raw.getvalue()[:-1]
     # No time in the header, so that equal trees are equal files.
