@@ -90,6 +90,7 @@ class Option:
     affects: what it changes.
     not_for: words of subjects, and outputs, for which it does nothing all the same.
     remedy: what its refusal there advises.
+    resolve: its value where nobody sets it, of all settings; for a default that depends on them.
     """
 
     name: str
@@ -110,6 +111,7 @@ class Option:
     affects: tuple[Effect, ...] = ()
     not_for: tuple[str, ...] = ()
     remedy: str = ""
+    resolve: Callable[[Any], Any] | None = None
 
     def applies(self, subject: Subject | None = None, output: Output | None = None) -> bool:
         """Whether it changes a subject in an output; None is any of them."""

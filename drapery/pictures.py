@@ -2,7 +2,6 @@
 
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Unpack
 
@@ -111,7 +110,7 @@ def save_model(
     moves = check_target(path, "model").moving and seconds != 0
     if moves:
         chosen = settled_for(design, chosen, "loop")
-    chosen = replace(chosen, ground="none")
+    chosen = chosen.changed(ground="none")
     packs = open_packs(chosen.packs, format=chosen.format)
     if moves:
         tick, total = progress or (lambda done, total: None), frame_count(seconds, fps)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields
 from functools import wraps
 from pathlib import Path
 from types import MappingProxyType
@@ -128,6 +128,13 @@ def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
     return field(default=default, metadata={"help": help, "type": kind, **more})
 
 
+def _ground_of(settings: Settings) -> str:
+    """The block of the ground or wall where none is given."""
+    if settings.is_hero:
+        return "stone_bricks" if settings.placement == "wall" else "grass"
+    return "none"
+
+
 def _with_given(made: Any) -> Any:
     """Let `Settings.given` hold the names in a call; `replace` hands on those of before."""
     fill = made.__init__
@@ -146,6 +153,8 @@ class Settings:
     """Checked options of a picture. Raises OptionError that names the option and its limits.
 
     given: the names of those that were given, and of all that differ from their default.
+    An option whose default depends on others has the value that counts when it is read; `changed`
+    makes it anew unless it was given, and `dataclasses.replace` keeps it.
     """
 
     packs: PackLike | Sequence[PackLike] = _option(
@@ -401,7 +410,7 @@ class Settings:
         audience="anyone",
         affects=("file",),
     )
-    ground: str | None = _option(
+    ground: str = _option(
         None,
         str,
         "Block below a standing banner, or wall behind one: none, grass, stone or another block",
@@ -409,14 +418,16 @@ class Settings:
         metavar="BLOCK",
         affects=("shape",),
         not_for=("item", "model"),
+        resolve=_ground_of,
     )
-    samples: Samples | None = _option(
+    samples: Samples = _option(
         None,
         int,
         "Samples of each pixel; 1 gives the hard edges of pixel art",
         choices=get_args(Samples),
         default_text="4 in the hero view, else 1",
         affects=("file",),
+        resolve=lambda settings: 4 if settings.is_hero else 1,
     )
     pixel: int = _option(
         1,
@@ -427,13 +438,14 @@ class Settings:
         affects=("file",),
         not_for=("page",),
     )
-    light: Lighting | None = _option(
+    light: Lighting = _option(
         None,
         str,
         "The game's two lights, the flat colours of the textures, or lights that cast shadows",
         choices=get_args(Lighting),
         default_text="studio in the hero view, else game",
         affects=("light",),
+        resolve=lambda settings: "studio" if settings.is_hero else "game",
     )
     block_light: int = _option(
         0,
@@ -482,7 +494,10 @@ class Settings:
                 object.__setattr__(self, name, value)
                 if _differ(value, option.default):
                     changed.add(name)
-        object.__setattr__(self, "given", self.given | changed)
+        unset = {name for name in _RESOLVED if getattr(self, name) is None}
+        object.__setattr__(self, "given", (self.given | changed) - unset)
+        for name in unset:
+            object.__setattr__(self, name, _RESOLVED[name](self))
         background_colour(self.background)
         self._check_turn()
         self._check_ground()
@@ -492,15 +507,27 @@ class Settings:
             size = OPTIONS["size"].to_text(self.size)
             raise OptionError(f"size {size} is not a multiple of pixel {self.pixel}; use one")
 
+    def __eq__(self, other: object) -> bool:
+        return self is other or (isinstance(other, Settings) and self._values == other._values)
+
+    def __hash__(self) -> int:
+        return hash(self._values)
+
+    @property
+    def _values(self) -> tuple[Any, ...]:
+        """All values as they were given: a style or kind may set what was not."""
+        unset = _RESOLVED.keys() - self.given
+        return tuple([None if name in unset else getattr(self, name) for name in OPTIONS])
+
     def _check_ground(self) -> None:
-        if self.ground is None:
+        if self.ground == "none":
             return
         if not re.fullmatch(r"([a-z0-9_.-]+:)?[a-z0-9_./-]{1,100}", self.ground):
             raise OptionError(
                 f"ground {shown(self.ground)} is not a block; use none, grass, stone or the name"
                 " of a block's texture"
             )
-        if self.placement == "item" and self.ground != "none":
+        if self.placement == "item":
             raise OptionError(f"ground {self.ground} is not for an item in its slot; leave it out")
 
     def _check_turn(self) -> None:
@@ -523,7 +550,16 @@ class Settings:
 
     def changed(self, **options: Unpack[Options]) -> Settings:
         """The settings with other values of some options, which count as given."""
-        return replace(self, **options, given=self.given | options.keys()) if options else self
+        if not options:
+            return self
+        values: dict[str, Any] = dict(zip(OPTIONS, self._values, strict=True))
+        values.update(options)
+        return Settings(**values, given=self.given | options.keys())
+
+    def as_given(self, name: str) -> Any:
+        """The value of an option; None where it is not given and depends on others."""
+        is_own = name not in _RESOLVED or name in self.given
+        return getattr(self, name) if is_own else None
 
     def subject(self, kind: str = "banner") -> Subject:
         """What is drawn of a design of this kind."""
@@ -535,29 +571,12 @@ class Settings:
         Pictures whose cloth moves alike have equal ones of motion and wind.
         """
         kept = (name for name, o in OPTIONS.items() if not set(effects).isdisjoint(o.affects))
-        return Settings(**{name: getattr(self, name) for name in kept})
+        return Settings(**{name: self.as_given(name) for name in kept})
 
     @property
     def is_hero(self) -> bool:
         """Whether the picture shows its subject in the hero view, which has defaults of its own."""
         return self.view == "hero" and self.placement != "item"
-
-    @property
-    def lighting(self) -> Lighting:
-        """The light, by the view unless it is given."""
-        return self.light or ("studio" if self.is_hero else "game")
-
-    @property
-    def sample_count(self) -> Samples:
-        """Samples of each pixel, by the view unless they are given."""
-        return self.samples or (4 if self.is_hero else 1)
-
-    @property
-    def ground_block(self) -> str | None:
-        """The block of the ground or wall, by the view unless it is given; None is none."""
-        if self.ground is None and self.is_hero:
-            return "stone_bricks" if self.placement == "wall" else "grass"
-        return None if self.ground == "none" else self.ground
 
     @property
     def drawn_size(self) -> tuple[int, int]:
@@ -603,6 +622,9 @@ OPTIONS: Mapping[str, Option] = MappingProxyType(
     }
 )
 """The options of a picture by name, in the order in which help lists them."""
+
+_RESOLVED = {name: option.resolve for name, option in OPTIONS.items() if option.resolve}
+"""The defaults that depend on other options."""
 
 NAMED_OPTIONS: Mapping[str, Option] = MappingProxyType(
     {name: option for name, option in OPTIONS.items() if option.audience != "python"}

@@ -10,7 +10,7 @@ import hashlib
 import json
 import tempfile
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -278,7 +278,7 @@ def _draw_played(request: Request) -> bytes:
     player = player_of(
         PlayerSettings(**request.what, wear=() if request.what["elytra"] else ("cape",))
     )
-    settings = replace(player.settings(**request.options))
+    settings = player.settings(**request.options)
     return _bytes(draw_scene(first_scene(repeating_garment(player, open_packs(()), settings))))
 
 

@@ -60,6 +60,13 @@ def test_every_part_counts() -> None:
     assert len(set(made)) == len(made)
 
 
+def test_a_given_light_and_ground_count_though_the_view_has_the_same() -> None:
+    """A style has its own light, and a shield stands on what is given alone."""
+    assert key(view="hero", style="ink") != key(view="hero", style="ink", light="studio")
+    shield = {"view": "hero", "kind": "shield"}
+    assert key(**shield) != key(**shield, ground="grass")
+
+
 @given(st.integers(0, 1 << 20), st.floats(0, 40))
 def test_equal_settings_have_equal_keys(seed: int, wind: float) -> None:
     settings = Settings(seed=seed, wind=wind)

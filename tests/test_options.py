@@ -39,7 +39,8 @@ def test_the_table_the_settings_and_the_keywords_are_the_same() -> None:
     made = [field for field in fields(Settings) if field.name != "given"]
     assert list(OPTIONS) == [field.name for field in made]
     assert {name: kind.__forward_arg__ for name, kind in Options.__annotations__.items()} == {
-        field.name: field.type for field in made
+        field.name: field.type + (" | None" if OPTIONS[field.name].resolve else "")
+        for field in made
     }
     assert {name: option.default for name, option in OPTIONS.items()} == {
         field.name: field.default for field in made
@@ -49,7 +50,8 @@ def test_the_table_the_settings_and_the_keywords_are_the_same() -> None:
 @pytest.mark.parametrize("name", OPTIONS)
 def test_the_choices_are_those_of_the_annotation(name: str) -> None:
     option, annotation = OPTIONS[name], str(Settings.__annotations__[name])
-    assert annotation.endswith("| None") is (option.default is None)
+    may_be_none = option.default is None and option.resolve is None
+    assert annotation.endswith("| None") is may_be_none
     assert {type(choice) for choice in option.choices} <= {option.type}
     named = [getattr(settings, part, None) for part in annotation.split(" | ")]
     literals = [get_args(kind) for kind in named if get_origin(kind) is Literal]

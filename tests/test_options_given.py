@@ -1,6 +1,7 @@
 """What a caller gave: kept by Settings, and put in place of a garment's own options."""
 
 import pickle
+import re
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -8,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from conftest import Run
+from source_modules import modules
 
 from drapery import Settings, draw
 from drapery.errors import OptionError
@@ -27,11 +29,31 @@ FLAG = Garment.model_validate(
 def test_given_are_the_names_in_a_call_and_what_differs_from_a_default() -> None:
     given = Settings(wind=4.0, view="iso")
     assert given.given == {"wind", "view"}
-    assert replace(given, gusts=1.0).given == {"wind", "view", "gusts"}
+    assert replace(given, gusts=1.0).given >= {"wind", "view", "gusts"}
     assert given.changed(seed=0).given == {"wind", "view", "seed"}
     assert given.changed() is given and Settings().given == frozenset()
     assert pickle.loads(pickle.dumps(given)).given == given.given
     assert given.given_values == {"view": "iso", "wind": 4.0}
+
+
+def test_a_default_that_depends_on_others_is_made_anew_and_is_not_given() -> None:
+    hero = Settings(view="hero", samples=None)
+    assert (hero.light, hero.samples, hero.ground, hero.given) == ("studio", 4, "grass", {"view"})
+    assert hero.changed(view="front") == Settings() and hero.changed(samples=None) == hero
+    fixed = hero.changed(view="front", light="studio")
+    assert (fixed.light, fixed.samples, fixed.given) == ("studio", 1, {"view", "light"})
+    assert fixed.changed(light=None).light == "game"
+    assert (hero.as_given("light"), fixed.as_given("light")) == (None, "studio")
+    # A style has its own light, which is that of the first alone.
+    assert hero != Settings(view="hero", light="studio")
+
+
+def test_the_package_changes_settings_by_their_method() -> None:
+    """`replace` would keep the values of options whose default depends on others."""
+    wrong = re.compile(r"(?<![.\w])replace\(\s*([\w.]*\b)?(settings|chosen|base),")
+    texts = {name: path.read_text(encoding="utf-8") for name, path in modules().items()}
+    found = [name for name, text in texts.items() if wrong.search(text)]
+    assert found == []
 
 
 def test_given_names_are_no_part_of_the_value() -> None:

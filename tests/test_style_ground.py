@@ -23,14 +23,13 @@ SMALL = (96, 120)
 
 def test_the_hero_view_has_its_own_light_samples_and_ground() -> None:
     hero, front = Settings(view="hero"), Settings()
-    assert (hero.lighting, hero.sample_count, hero.ground_block) == ("studio", 4, "grass")
-    assert (front.lighting, front.sample_count, front.ground_block) == ("game", 1, None)
-    assert Settings(view="hero", placement="wall").ground_block == "stone_bricks"
+    assert (hero.light, hero.samples, hero.ground) == ("studio", 4, "grass")
+    assert (front.light, front.samples, front.ground) == ("game", 1, "none")
+    assert Settings(view="hero", placement="wall").ground == "stone_bricks"
     item = Settings(view="hero", placement="item")
-    assert (item.lighting, item.sample_count, item.ground_block) == ("game", 1, None)
+    assert (item.light, item.samples, item.ground) == ("game", 1, "none")
     plain_hero = Settings(view="hero", light="game", samples=1, ground="none")
-    assert (plain_hero.lighting, plain_hero.sample_count) == ("game", 1)
-    assert plain_hero.ground_block is None
+    assert (plain_hero.light, plain_hero.samples, plain_hero.ground) == ("game", 1, "none")
 
 
 def test_the_games_light_is_exact_in_the_hero_view_too() -> None:

@@ -11,7 +11,6 @@ from pathlib import Path
 from drapery.batch.jobs import Job
 from drapery.batch.keys import DigestCache
 from drapery.errors import OutputError, PackError
-from drapery.settings import Settings
 from drapery.user_files import open_user_file
 
 MAX_BYTES = 1 << 30
@@ -73,9 +72,8 @@ def resolved(job: Job, artifacts: tuple[Artifact, ...]) -> Job:
         return job
     here = [unbundle(artifact) for artifact in artifacts]
     count = len(job.settings.pack_paths)
-    settings: Settings = replace(
-        job.settings, packs=tuple(here[:count]), texture=here[count] if here[count:] else None
-    )
+    texture = here[count] if here[count:] else None
+    settings = job.settings.changed(packs=tuple(here[:count]), texture=texture)
     return replace(job, settings=settings)
 
 

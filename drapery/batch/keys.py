@@ -5,7 +5,7 @@ import json
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from functools import cache, partial
 from importlib.metadata import packages_distributions, version
 from importlib.resources import files
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from drapery import Banner
 from drapery.errors import PackError
 from drapery.render import backend
-from drapery.settings import Settings
+from drapery.settings import OPTIONS, Settings
 from drapery.styles import combined_style
 from drapery.user_files import open_user_file
 
@@ -73,8 +73,8 @@ def picture_key(
     cannot be loaded.
     """
     style = combined_style(settings.style)
-    options, texture = asdict(replace(settings, style=())), settings.texture_path
-    del options["given"]  # the values say all
+    texture = settings.texture_path
+    options = {name: settings.as_given(name) for name in OPTIONS}
     options["style"] = style.describe()
     options["packs"] = [digests.of(pack) for pack in settings.pack_paths]
     options["texture"] = None if texture is None else digests.of(texture)

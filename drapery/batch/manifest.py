@@ -255,7 +255,7 @@ def _with_styles(settings: Settings) -> Settings | list[str]:
         combined_style(read)
     except OptionError as error:
         return [one_line(str(error))]
-    return replace(settings, style=tuple(read)) if read else settings
+    return settings.changed(style=tuple(read)) if read else settings
 
 
 def _objects(settings: Settings, options: Mapping[str, Any]) -> list[str]:

@@ -33,9 +33,9 @@ def run(
     """Draw a banner waving in the wind, as a seamless loop."""
     from drapery import iter_frames
     from drapery.render import check_target, save_animation
-    from drapery.settings import Settings, background_colour, frame_count
+    from drapery.settings import background_colour, frame_count
 
-    settings = Settings(**o.options_of(words))
+    settings = o.settings_of(words)
     behind = None if matte is None else background_colour(matte)[:3]
     check_target(out, "loop")
     with compile_notice():

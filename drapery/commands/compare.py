@@ -62,7 +62,7 @@ def run(
     """
     from drapery.comparison import compare_variants, draw_variants, is_picture, read_tolerance
     from drapery.render import check_target
-    from drapery.settings import NAMED_OPTIONS, Settings
+    from drapery.settings import NAMED_OPTIONS
 
     folders = folders_of(subjects)
     for target in out or []:
@@ -76,7 +76,7 @@ def run(
         raise typer.Exit(compare_folders(folders, limits, out or (), perceptual=perceptual))
     modes, backends, styles = layers.split(","), backend.split(","), words.pop("style", ())
     first = {"layers": modes[0], "backend": backends[0]}
-    settings = Settings(**o.options_of(words | first))
+    settings = o.settings_of(words | first)
     reading = {name: words[name] for name in _READING}
     with compile_notice():
         chosen = draw_variants(subjects, settings, modes, backends, styles, **reading)

@@ -28,8 +28,7 @@ def run(
 ) -> None:
     """Write a banner, shield, cape or elytra as a 3-D file: a waving GLB, or one pose."""
     from drapery import save_model
-    from drapery.settings import Settings
 
-    settings = Settings(**o.options_of(words))
+    settings = o.settings_of(words)
     with compile_notice():
         save_model(o.design_of(words), out, settings, seconds=seconds, fps=fps)

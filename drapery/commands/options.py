@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 import typer
 
 from drapery.option import Option, Output, Subject
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options, applicable
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, Options, Settings, applicable
 
 if TYPE_CHECKING:
     from drapery import Banner
@@ -148,6 +148,11 @@ def options_of(words: Mapping[str, Any]) -> Options:
         for name, option in chosen.items()
     }
     return cast(Options, values)
+
+
+def settings_of(words: Mapping[str, Any]) -> Settings:
+    """The settings of the picture options among a command's words. Raises OptionError."""
+    return Settings().changed(**options_of(words))
 
 
 def design_of(words: Mapping[str, Any]) -> "Banner | None":

@@ -1,6 +1,5 @@
 """`drapery sheet`: many labelled pictures on one sheet."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -65,10 +64,9 @@ def write_rotations(
 ) -> None:
     """One design in all sixteen rotations."""
     from drapery.render import check_target
-    from drapery.settings import Settings
     from drapery.sheets import rotations_sheet
 
-    settings = Settings(**o.options_of(words | {"view": view, "size": size}))
+    settings = o.settings_of(words | {"view": view, "size": size})
     check_target(out, "still", "page")
     with compile_notice():
         rotations_sheet(o.design_of(words), settings).save(out)
@@ -132,12 +130,10 @@ def write_styles(
     from drapery.banner import parse_banner
     from drapery.option import within
     from drapery.render import check_target
-    from drapery.settings import OPTIONS, Settings
     from drapery.sheets import styles_sheet
 
     within("moments", moments, 1, MAX_MOMENTS)
-    given = words | {"size": size} | ({} if view == "hero" else {"view": view})
-    settings = replace(Settings(**o.options_of(given)), view=OPTIONS["view"].parse(view))
+    settings = o.settings_of(words | {"size": size, "view": view})
     check_target(out, "still", "page")
     with compile_notice():
         design = o.design_of(words) or parse_banner(STYLED)

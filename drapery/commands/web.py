@@ -34,11 +34,10 @@ def run(
     """Write a page with live cloth that needs no server, a gallery, or the custom element."""
     from drapery.errors import OptionError
     from drapery.render import check_target
-    from drapery.settings import Settings
     from drapery.web.gallery import write_gallery
     from drapery.web.page import write_component, write_page
 
-    settings = Settings(**o.options_of({**words, "size": size}))
+    settings = o.settings_of({**words, "size": size})
     if component and gallery:
         raise OptionError("--component writes a folder and --gallery a page; use one of them")
     if component:

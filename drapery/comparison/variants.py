@@ -133,14 +133,14 @@ def _drawn(
     fixed = {
         k: v for name, values in axes.items() if len(values) == 1 for k, v in values[0][1].items()
     }
-    base = replace(settings, **fixed)
+    base = settings.changed(**fixed)
     ((axis, values),) = varied.items()
     from drapery.pictures import draw
 
     made = []
     for number, (label, changes) in enumerate(values):
         banner = banners[number if axis == "designs" else 0][1]
-        changed = replace(base, **changes)
+        changed = base.changed(**changes)
         made.append(Variant(label, as_picture(draw(banner, changed)), banner, changed))
     return made
 

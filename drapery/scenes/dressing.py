@@ -282,9 +282,9 @@ class Dressed:
 
     def _ground(self) -> tuple[Part, ...]:
         """Blocks below a garment and its poles; none where the garment has its own."""
-        block = self.settings.ground_block
+        block = self.settings.ground
         who = self.garment.wearer
-        if block is None or (who and who.shown != "full") or any(y < 0 for _, y, _ in self.cells):
+        if block == "none" or (who and who.shown != "full") or any(y < 0 for _, y, _ in self.cells):
             return ()
         texel = self.garment.texel
         ends = [

@@ -113,7 +113,7 @@ def played_body(body: Body, settings: Settings) -> PlayedSubject:
     A hand may pull it, and does not feel what is in its way: cloth that it has pulled through
     itself could not come back. Raises OptionError for settings that cannot be played.
     """
-    pulled = replace(settings, contact="world") if settings.contact == "all" else settings
+    pulled = settings.changed(contact="world") if settings.contact == "all" else settings
     staged = StagedBody(body, pulled)
     _check_played(staged.staging)
     cloths = tuple(_played_cloth(staged, panel) for panel in body.panels)

@@ -39,7 +39,7 @@ class Staging:
         self.settings = settings = self.style.settle(settings)
         lights = {"flat": UNLIT, "studio": STUDIO_LIGHT, "game": light}
         self.light = lit_at(
-            lights[settings.lighting],
+            lights[settings.light],
             settings.block_light,
             settings.sky_light,
             settings.daylight,
@@ -100,7 +100,7 @@ class Staging:
             settings.drawn_size,
             self.light,
             background_colour(settings.background),
-            settings.sample_count,
+            settings.samples,
         )
 
     def scenes(

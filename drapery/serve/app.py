@@ -295,7 +295,7 @@ def _with_own_files(config: ServiceConfig, folder: Path) -> ServiceConfig:
         else:
             shutil.copyfile(pack, target)
         packs.append(target)
-    return replace(config, base=replace(config.base, packs=tuple(packs)), skins=skins, capes=capes)
+    return replace(config, base=config.base.changed(packs=tuple(packs)), skins=skins, capes=capes)
 
 
 def _copied(pictures: Mapping[str, Path], folder: Path) -> dict[str, Path]:

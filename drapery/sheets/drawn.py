@@ -50,7 +50,7 @@ def rotations_sheet(design: Banner | None, settings: Settings) -> PictureSheet:
 
 def _rotations(design: Banner | None, settings: Settings) -> list[Frame]:
     packs = open_packs(settings.packs, format=settings.format)
-    turned = [replace(settings, rotation=rotation) for rotation in range(ROTATIONS)]
+    turned = [settings.changed(rotation=rotation) for rotation in range(ROTATIONS)]
     scenes = [still(design, packs, each) for each in turned]
     meshes = [model.mesh for scene in scenes for model in scene.models]
     points = np.concatenate([mesh.positions.reshape(-1, 3) for mesh in meshes])
@@ -71,7 +71,7 @@ def packs_sheet(
     cells = []
     for name, packs in stacks:
         if scale is None:
-            frame = draw(banner, replace(settings, packs=packs))
+            frame = draw(banner, settings.changed(packs=packs))
         else:
             frame = draw_face(banner, packs=packs, format=settings.format, scale=scale)
         cells.append(SheetCell(name, frame.pixels))
@@ -88,7 +88,7 @@ def styles_sheet(
     Raises OptionError, PackError or BackendError.
     """
     if settings.background == "transparent":
-        settings = replace(settings, background=background)
+        settings = settings.changed(background=background)
     names = OPTIONS["style"].check(settings.style) or tuple(style_names())
     times = [settings.time + BETWEEN * moment for moment in range(moments)]
     later = [settings.changed(time=time) for time in times] if moments > 1 else [settings]

@@ -112,7 +112,7 @@ class Document:
 
         Raises OptionError, or PackError for packs that cannot be opened; then nothing changes.
         """
-        before, after = self.settings, replace(self.settings, **options)
+        before, after = self.settings, self.settings.changed(**options)
         new_packs = (after.packs, after.format) != (before.packs, before.format)
         if new_packs:
             self._opened(after)

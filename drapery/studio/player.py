@@ -63,7 +63,7 @@ def garment_show(garment: Garment, packs: Packs, settings: Settings) -> Show:
         return next(dressed.scenes(starts, Schedule.at([0.0], dressed.step)))
 
     def _sized(clip: Clip) -> Settings:
-        return replace(settings, size=clip.size, pixel=1)
+        return settings.changed(size=clip.size, pixel=1)
 
     return Show(garment.name, Clip(), play, first)
 

@@ -99,7 +99,7 @@ class Session(Document):
     def open(self, sketch: Sketch, settings: Settings) -> None:
         """Begin with another design and its options; this can be undone. Raises OptionError."""
         chosen = with_shared(self.settings, settings)
-        self.adjust(**{name: getattr(chosen, name) for name in SHARED})
+        self.adjust(**{name: chosen.as_given(name) for name in SHARED})
         self.selection.lay_out(sketch)
 
     def resume(self, work: Work) -> None:

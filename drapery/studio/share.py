@@ -61,12 +61,13 @@ def with_shared(base: Settings, settings: Settings) -> Settings:
     A format of None leaves that of `base`, and no style leaves those of `base` that a link cannot
     name.
     """
-    chosen = {name: getattr(settings, name) for name in SHARED}
+    own = {name: value for name, value in base.given_values.items() if name not in SHARED}
+    chosen = {name: value for name, value in settings.given_values.items() if name in SHARED}
     if settings.format is None:
         chosen["format"] = base.format
     if not settings.style:
         chosen["style"] = tuple(style for style in _styles(base) if not _is_name(style))
-    return replace(base, **chosen)
+    return Settings(**own | chosen)
 
 
 def as_tree(sketch: Sketch, settings: Settings) -> dict[str, Any]:
@@ -84,7 +85,7 @@ def as_tree(sketch: Sketch, settings: Settings) -> dict[str, Any]:
 
 def options_of(settings: Settings) -> dict[str, Any]:
     """The shared options that differ from their default, by name, as JSON."""
-    chosen = {name: getattr(settings, name) for name in SHARED}
+    chosen = {name: settings.as_given(name) for name in SHARED}
     chosen["style"] = tuple(filter(_is_name, _styles(settings)))
     return {
         name: list(value) if isinstance(value, tuple) else value

@@ -144,7 +144,7 @@ def file_name(request: ExportRequest, stem: str = "banner") -> str:
 
 def options_for(request: ExportRequest) -> Settings:
     """The options of this kind of file; the others have their default."""
-    given = {name: getattr(request.settings, name) for name in _names(request)}
+    given = {name: request.settings.as_given(name) for name in _names(request)}
     found = drawn_garment(request)
     return Settings(**given) if found is None else found.settings(**given)
 
@@ -276,13 +276,13 @@ def _names(request: ExportRequest) -> tuple[str, ...]:
 def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any]:
     """This kind's options that differ from their default, or from those of the garment's file;
     packs have the user's names."""
-    values = {name: getattr(request.settings, name) for name in _names(request)}
+    values = {name: request.settings.as_given(name) for name in _names(request)}
     found = drawn_garment(request)
     default = Settings() if found is None else found.settings()
     changed = {
         name: value
         for name, value in values.items()
-        if value != getattr(default, name) and (value is not None or found is None)
+        if value != default.as_given(name) and (value is not None or found is None)
     }
     if "packs" in changed:
         changed["packs"] = [called.get(str(pack), str(pack)) for pack in changed["packs"]]

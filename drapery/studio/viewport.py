@@ -359,7 +359,7 @@ class Viewport:
     def _choose_player(self, packs: Packs) -> None:
         """Begin another scene or garment if the request asks for one. Raises DraperyError."""
         request, document = self.request, self._document
-        settings = document.settings if request.on else replace(document.settings, wind=0.0)
+        settings = document.settings if request.on else document.settings.changed(wind=0.0)
         wanted: object = None
         if request.scene is not None:
             wanted = scene_choice(request.scene, _design(document), settings)

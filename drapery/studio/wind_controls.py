@@ -44,11 +44,11 @@ class WindControls:
     @property
     def wind(self) -> Wind:
         """The wind on a cloth, in the cloth's frame; bit-identical to the wind of pictures."""
-        return wind_of(self.settings if self.on else replace(self.settings, wind=0.0))
+        return wind_of(self.settings if self.on else self.settings.changed(wind=0.0))
 
     def changed(self, **options: Any) -> "WindControls":
         """The controls with other values of options. Raises OptionError."""
-        return replace(self, settings=replace(self.settings, **options))
+        return replace(self, settings=self.settings.changed(**options))
 
 
 def wind_controls_of(settings: Settings, on: bool = True) -> WindControls:

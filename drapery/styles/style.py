@@ -17,7 +17,7 @@ from drapery.render.buffers import Buffers
 from drapery.render.frame import Frame
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
-from drapery.settings import Lighting, Settings
+from drapery.settings import Lighting, Options, Settings
 from drapery.style.sheet import Sheet
 from drapery.styles.canvas import PLACES, Canvas, laid_over, large_pixel
 from drapery.styles.chain import chain_fault, makes_pixels
@@ -97,10 +97,12 @@ class Style:
 
     def settle(self, settings: Settings) -> Settings:
         """The settings with this style's light and samples where they give none."""
-        if not (self.light or self.samples):
-            return settings
-        light, samples = settings.light or self.light, settings.samples or self.samples
-        return replace(settings, light=light, samples=samples)
+        own: Options = {}
+        if self.light and "light" not in settings.given:
+            own["light"] = self.light
+        if self.samples and "samples" not in settings.given:
+            own["samples"] = self.samples
+        return settings.changed(**own)
 
     def move(self, sheet: Sheet) -> Sheet:
         """The motion steps applied. sheet: all moments, positions of shape [F, N, 3]."""

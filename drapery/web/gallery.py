@@ -1,7 +1,7 @@
 """A page of one file with every kind of scene that the component plays: `drapery web --gallery`."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -111,11 +111,11 @@ def gallery_text(settings: Settings, items: Iterable[GalleryItem] = ITEMS) -> st
     files: dict[str, bytes] = {}
     for item in items:
         subject = item.garment or (Banner.parse(item.design) if item.design else None)
-        own = replace(settings, size=SIZE, **item.options)
+        own = settings.changed(size=SIZE, **item.options)
         if isinstance(subject, Garment):
             own = seen_settings(subject, settings, SIZE)
         elif subject is None:
-            own = replace(own, texture=texture)
+            own = own.changed(texture=texture)
         files |= _scene_file(item, subject, packs, own)
         attributes = {} if item.worn else {"kind": item.name}
         attributes |= {"alt": item.title, **item.attributes}

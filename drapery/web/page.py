@@ -4,7 +4,7 @@ import base64
 import gzip
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 from typing import Literal
@@ -161,7 +161,7 @@ def write_component(folder: Path, settings: Settings) -> None:
 def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     packs = open_packs(settings.packs, format=settings.format)
     for placement in PLACEMENTS:
-        placed = replace(settings, placement=placement)
+        placed = settings.changed(placement=placement)
         yield f"{placement}.bin", scene_bytes(Banner(), packs, placed)
     for worn, pose, arms in product(WORN, POSES, ARMS):
         garment = posed_player(worn, pose, arms, overlay="whole")  # its skin can be replaced

@@ -89,7 +89,7 @@ class _ExportForm:
         except DraperyError:  # the button that makes the file says why
             return False
         if request.settings.time == self._session.viewport.paused_at:
-            settings = replace(request.settings, time=work.request.settings.time)
+            settings = request.settings.changed(time=work.request.settings.time)
             request = replace(request, settings=settings)
         name = file_name(request, stem_of(self._session.sketch.title))
         return (request, name) == (work.request, work.name)

@@ -65,7 +65,7 @@ class Fields:
         option = OPTIONS[name]
 
         def get() -> Any:
-            return getattr(self._session.settings, name)
+            return self._session.settings.as_given(name)
 
         def change(value: Any) -> None:
             self._session.adjust(**{name: value}, **also)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Container
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -59,7 +59,7 @@ def request_of(session: Session, choice: FileChoice) -> ExportRequest:
     banner = None if session.settings.texture is not None else banner_of(session.sketch)
     settings = session.settings
     if not session.viewport.request.on:
-        settings = replace(settings, wind=0.0)
+        settings = settings.changed(wind=0.0)
     made = choice.kind, choice.seconds, choice.fps, choice.scale
     shown = session.viewport.request
     scene = None if shown.scene is None else scene_choice(shown.scene, banner, settings)

@@ -125,7 +125,7 @@ def _light(session: Session, fields: Fields) -> None:
         fields.option("sky_light", "Sky light", step=1)
         fields.tick(
             "Shaded",
-            lambda: session.settings.lighting == "game",
+            lambda: session.settings.light == "game",
             lambda on: session.adjust(light="game" if on else "flat"),
         )
 

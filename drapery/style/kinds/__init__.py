@@ -40,11 +40,11 @@ def body_of(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """
     kind = check_kind(design, settings)
     body = kind.build(design, packs, settings)
-    block = settings.ground_block
     # Only banners stand or hang on something unless asked for.
-    if block is None or (settings.ground is None and kind is not KINDS["banner"]):
+    stands = kind is KINDS["banner"] or "ground" in settings.given
+    if settings.ground == "none" or not stands:
         return body
-    return replace(body, ground=ground_of(block, packs, settings.placement))
+    return replace(body, ground=ground_of(settings.ground, packs, settings.placement))
 
 
 def check_kind(design: Banner | None, settings: Settings) -> Kind:
