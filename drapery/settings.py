@@ -626,6 +626,9 @@ OPTIONS: Mapping[str, Option] = MappingProxyType(
 _RESOLVED = {name: option.resolve for name, option in OPTIONS.items() if option.resolve}
 """The defaults that depend on other options."""
 
+_OF_THE_WIND = frozenset(n for n, o in OPTIONS.items() if o.affects == ("wind",) and n != "wind")
+"""The options that a `Wind` has in itself."""
+
 NAMED_OPTIONS: Mapping[str, Option] = MappingProxyType(
     {name: option for name, option in OPTIONS.items() if option.audience != "python"}
 )
@@ -692,8 +695,12 @@ def settled(
     Raises OptionError for a given option that does nothing, unless it is None or as in `own`.
     """
     given = settings.given_values
+    wind = given.get("wind", own.get("wind", 0.0))
+    in_wind = frozenset() if isinstance(wind, int | float) else _OF_THE_WIND
     for name, value in settings.given_values.items():
         refusal = OPTIONS[name].refusal(subject, output)
+        if refusal is None and name in in_wind and _differ(value, OPTIONS[name].default):
+            refusal = f"{name} does nothing beside a Wind of your own; set it in that Wind"
         if refusal is None:
             continue
         if value is not None and (name not in own or _differ(value, own[name])):
@@ -702,7 +709,7 @@ def settled(
     if not own and len(given) == len(settings.given):
         return settings
     turned = given.get("view") in ("front", "back") and "rotation" not in given
-    kept = (name for name in own if not (turned and name == "rotation"))
+    kept = (name for name in own if not ((turned and name == "rotation") or name in in_wind))
     used = {name: own[name] for name in kept if OPTIONS[name].applies(subject, output)}
     return Settings(**used | given)
 

@@ -95,6 +95,18 @@ def test_an_opened_stack_goes_wherever_paths_go(tmp_path: Path) -> None:
         open_packs(opened, format=46)
 
 
+def test_a_pack_that_was_opened_for_another_format_is_read_as_the_format_asked_for() -> None:
+    entry = {"directory": "newer", "formats": [40, 46]}
+    files = {
+        "pack.mcmeta": mcmeta(18, overlays={"entries": [entry]}),
+        CREEPER: plain(1, 0, 0, 255),
+        f"newer/{CREEPER}": plain(2, 0, 0, 255),
+    }
+    opened = open_pack(MemoryPack(contents=files), 46)
+    shown = [open_packs(opened, format=number).sheet("creeper")[0, 0, 0] for number in (46, 18)]
+    assert shown == [2, 1] and open_packs(opened).packs[1] is opened
+
+
 def test_contents_are_further_files_of_the_pack() -> None:
     files = {"pack.mcmeta": mcmeta(4), CREEPER + ".mcmeta": b'{"animation": {}}'}
     strip = np.concatenate([np.full((8, 8, 4), red, np.uint8) for red in (1, 2)])

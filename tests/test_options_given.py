@@ -11,7 +11,8 @@ import pytest
 from conftest import Run
 from source_modules import modules
 
-from drapery import Settings, draw
+from drapery import Banner, Settings, draw
+from drapery.cloth import Wind
 from drapery.errors import OptionError
 from drapery.garments import Garment
 from drapery.option import Subject
@@ -54,6 +55,22 @@ def test_the_package_changes_settings_by_their_method() -> None:
     texts = {name: path.read_text(encoding="utf-8") for name, path in modules().items()}
     found = [name for name, text in texts.items() if wrong.search(text)]
     assert found == []
+
+
+@pytest.mark.parametrize("name", ["direction", "gusts", "seed"])
+def test_an_option_of_the_wind_beside_a_wind_is_refused(name: str) -> None:
+    wind, values = Wind((0.0, 0.0, 3.0)), {"direction": 9.0, "gusts": 1.0, "seed": 7}
+    assert values.keys() | {"wind"} == {n for n, o in OPTIONS.items() if o.affects == ("wind",)}
+    said = f"{name} does nothing beside a Wind of your own; set it in that Wind"
+    for subject in (Banner.parse("white"), FLAG):
+        with pytest.raises(OptionError, match=re.escape(said)):
+            draw(subject, Settings(wind=wind), **{name: values[name]})
+
+
+def test_a_wind_counts_in_place_of_the_wind_of_a_garments_file() -> None:
+    own = FLAG.model_copy(update={"picture": {"direction": 180.0, "gusts": 0.2, "view": "iso"}})
+    settings = own.settings(wind=Wind((0.0, 0.0, 3.0)))
+    assert settings.given == {"wind", "view"}
 
 
 def test_given_names_are_no_part_of_the_value() -> None:

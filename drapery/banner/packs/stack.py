@@ -498,8 +498,8 @@ def open_packs(packs: PackLike | Sequence[PackLike] = (), *, format: int | None 
     packs: folders, zips or client jars, packs in memory, or packs already opened. An opened stack
         is returned unchanged; in a list, its packs are used without our own art.
     format: the resource format of the game version to draw (46 is 1.21.4); it selects overlays, the
-        place of the base texture and whether patterns are masks. None reads each pack as the newest
-        version that it claims to support does.
+        place of the base texture and whether patterns are masks, also of packs that were opened for
+        another one. None reads each pack as the newest version that it claims to support does.
 
     Raises PackError for a pack that cannot be opened, and for a stack that was opened for another
     format. A broken file in a pack raises PackError when it is read.
@@ -525,7 +525,9 @@ def open_packs(packs: PackLike | Sequence[PackLike] = (), *, format: int | None 
 def _opened(pack: PackLike, format: int | None) -> tuple[Pack, ...]:
     if isinstance(pack, Packs):
         return _of_format(pack, format).packs[1:]
-    return (pack if isinstance(pack, Pack) else open_pack(pack, format),)
+    if isinstance(pack, Pack):
+        return (pack if format in (None, pack.format) else open_pack(pack.source, format),)
+    return (open_pack(pack, format),)
 
 
 def _of_format(packs: Packs, format: int | None) -> Packs:
