@@ -34,11 +34,12 @@ from drapery.garments import (
 from drapery.garments.loading import MAX_BYTES
 from drapery.garments.meshes import read_stiff_mesh
 from drapery.garments.model import MAX_POINTS
-from drapery.garments.players import dressed_player, make_wearer
+from drapery.garments.players import dressed_player, make_wearer, player_of
 from drapery.garments.shapes import cut_pieces
 from drapery.garments.textures import texture_of
 from drapery.mesh import face_normals, vertex_normals
 from drapery.packs import open_packs
+from drapery.player_settings import PlayerSettings
 from drapery.scenes import Dressed
 from drapery.settings import Settings
 from drapery.sheets import garments_sheet
@@ -327,6 +328,15 @@ def test_a_design_and_a_texture_replace_those_of_a_garment() -> None:
     worn = cape.with_texture("other.png").piece[0].texture
     assert worn is not None and worn.box == (0, 0, 10, 16, 1) and worn.file is not None
     assert all(piece.texture is not None for piece in tent.with_design("black").piece)
+
+
+def test_a_design_and_a_texture_go_to_the_garments_over_a_player() -> None:
+    player = player_of(PlayerSettings(wear=("poncho", "cape")))
+    poncho, cape = player.with_texture("other.png").over
+    assert poncho == player.over[0] and cape == find_garment("cape").with_texture("other.png")
+    assert all(each.texture for worn in player.with_design("black").over for each in worn.piece)
+    with pytest.raises(OptionError, match="garment player has no cloth to show it; give it a cape"):
+        player_of(PlayerSettings()).with_texture("other.png")
 
 
 def test_pins_move_with_their_bone() -> None:

@@ -125,7 +125,7 @@ SHOWN = {
         player_of(PlayerSettings(wear=("cape",), motion="stand")),
         {},
         {"samples": 1},
-        OWN | {"texture": "its cloth is that of garments over it"},
+        OWN,
     ),
 }
 OUTPUTS: tuple[Output, ...] = ("still", "loop", "model")

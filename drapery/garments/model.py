@@ -7,7 +7,7 @@ origin, its feet on y = 0, and looks to +z.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence, Set
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -658,32 +658,48 @@ class Garment(GarmentTable):
         return tuple(dict.fromkeys(named))
 
     def with_design(self, design: str | Banner) -> "Garment":
-        """The garment with another design on the pieces that have one, or on all if none has.
+        """The garment with another design on the pieces that have one, or on all if none has,
+        also on those of garments over it.
 
-        Raises DesignError.
+        Raises DesignError, and OptionError for a garment without cloth.
         """
-        return self._with_source("design", ClothTexture(design=_as_banner(design)))
+        return self._with_source(("design",), ClothTexture(design=_as_banner(design)))
 
     def with_texture(self, texture: str | Path | ClothTexture) -> "Garment":
         """The garment with another texture, or that of a PNG file, on the pieces that have a file
-        or a texture of the packs, or on all if none has; their regions stay."""
+        or a texture of the packs, or on all if none has; their regions stay. Those of garments over
+        it count too.
+
+        Raises OptionError for a garment without cloth.
+        """
         if not isinstance(texture, ClothTexture):
             texture = ClothTexture(file=Path(texture).absolute())
-        return self._with_source("file", texture)
+        return self._with_source(("file", "pack"), texture)
 
-    def _with_source(self, source: str, new: ClothTexture) -> "Garment":
-        old = [each.texture or self.texture for each in self.piece]
-        wanted = {"design"} if source == "design" else {"file", "pack"}
-        chosen = [texture.source in wanted for texture in old]
-        regions = {"box", "front", "back", "sheet"}
+    def _with_source(self, sources: Sequence[str], new: ClothTexture) -> "Garment":
+        found = {texture.source for texture in self._textures()}
+        if not found:
+            raise OptionError(f"garment {self.name} has no cloth to show it; give it a cape")
+        return self._with_textures(found.intersection(sources), new)
+
+    def _textures(self) -> Iterator[ClothTexture]:
+        """Those of its pieces, then those of the garments over it."""
+        yield from (each.texture or self.texture for each in self.piece)
+        for each in self.over:
+            yield from each._textures()
+
+    def _with_textures(self, sources: Set[str], new: ClothTexture) -> "Garment":
+        """With a new texture on the pieces of these sources, whose regions stay; none is all."""
         pieces = []
-        for each, texture, fits in zip(self.piece, old, chosen, strict=True):
-            if fits:
-                same = {name: getattr(texture, name) for name in regions}
+        for each in self.piece:
+            texture = each.texture or self.texture
+            if texture.source in sources:
+                same = {name: getattr(texture, name) for name in ("box", "front", "back", "sheet")}
                 pieces.append(each.model_copy(update={"texture": new.model_copy(update=same)}))
             else:
-                pieces.append(each if any(chosen) else each.model_copy(update={"texture": new}))
-        return self.model_copy(update={"piece": tuple(pieces)})
+                pieces.append(each if sources else each.model_copy(update={"texture": new}))
+        over = tuple(each._with_textures(sources, new) for each in self.over)
+        return self.model_copy(update={"piece": tuple(pieces), "over": over})
 
 
 def _paths_in(value: object) -> Iterator[Path]:
