@@ -26,6 +26,7 @@ from drapery.cloth.contact.box_data import HELD, NO_CONTACT
 from drapery.cloth.contact.box_frame import set_pose
 from drapery.cloth.contact.lanes_contact import contact_work, resolve
 from drapery.cloth.contact.self_contact_data import make_self_contact
+from drapery.cloth.strain import NEVER
 from drapery.jit import entry_point
 from drapery.mesh import Array
 from tests.test_cloth_contact import BAR, POLE, UNIT, flag
@@ -73,9 +74,9 @@ def held(cloth: Cloth, method: Any, state: State, wind: Wind) -> Array:
     free = MovingCloth.begin(cloth, method, start=state).advance((Gravity(), wind)).state
     itself, codes = make_self_contact(cloth, UNIT), []
     for start, end in zip(state.positions, free.positions, strict=True):
-        work = contact_work(NO_CONTACT, itself)
+        work = contact_work(NO_CONTACT, len(start))
         work.start[:], work.end[:] = start, end
-        codes.append(resolve(work, NO_CONTACT, itself))
+        codes.append(resolve(work, NO_CONTACT, itself, NEVER, 1))
     return np.array(codes) == HELD
 
 

@@ -32,6 +32,7 @@ from drapery.cloth.contact.box_guard import edge_enters
 from drapery.cloth.contact.lanes_contact import contact_work, resolve
 from drapery.cloth.contact.self_contact_data import NOT_ITSELF
 from drapery.cloth.solvers.registry import solver
+from drapery.cloth.strain import NEVER
 from drapery.jit import entry_point
 from drapery.mesh import Array
 from drapery.settings import SolverName
@@ -124,12 +125,12 @@ def test_how_far_contact_looks_at_first_changes_no_bit() -> None:
     contact, ends = boxes.contact, []
     noise = np.random.default_rng(0).normal(0, 0.01, cloth.rest_positions.shape)
     for far in (0.0, 0.4, 1.0, 3.0, 1e3):
-        work = contact_work(contact)
+        work = contact_work(contact, len(cloth.inv_mass))
         work.start[:] = cloth.rest_positions
         work.end[:] = cloth.rest_positions + noise - (0.02, 0.0, 0.03)
         work.near.longest[:] = far * contact.radius
         work.starts[:] = work.ends[:] = contact.ends
-        assert resolve(work, contact, NOT_ITSELF)
+        assert resolve(work, contact, NOT_ITSELF, NEVER, 1)
         ends.append(work.end)
     assert all(np.array_equal(ends[0], end) for end in ends[1:])
 

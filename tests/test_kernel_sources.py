@@ -204,7 +204,7 @@ EDITS = {
     ),
     "the fields of a named tuple": (
         *("drapery/cloth/contact/smoothness.py", "    tangents: Array\n", ""),
-        Place("drapery.cloth.contact.self_contact", "meet_all"),
+        Place("drapery.cloth.contact.lanes_contact", "resolve"),
     ),
     "the options of the compiler": (
         *("drapery/jit.py", '"nogil": True', '"nogil": False'),

@@ -68,7 +68,8 @@ def test_600_steps_have_the_bits_of_python(placement: Any) -> None:
 def test_contact_of_the_cloth_with_itself_has_the_bits_of_python() -> None:
     moved, sizes = [], []
     for contact in ("world", "all"):
-        settings = quick_settings(wind=20.0, direction=240.0, fabric="silk", contact=contact)
+        blown = {"wind": 40.0, "gusts": 2.0, "direction": 240.0, "fabric": "silk"}
+        settings = quick_settings(**blown, contact=contact)
         live = LiveBody(white_banner(settings), settings)
         plan = picture_plan(live.body, settings)
         player = WasmPlayer(built_module(), plan)

@@ -14,11 +14,12 @@ from drapery.cloth.colliders.pose import still
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.colliders.shapes import Box, Plane, Shape
 from drapery.cloth.contact.box_data import NOTHING, BoxColliders, box_colliders
-from drapery.cloth.contact.self_contact import meet_all
+from drapery.cloth.contact.lanes_contact import resolve_block
 from drapery.cloth.contact.self_contact_data import SelfContact, make_self_contact
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.solvers.driver import check_limit
 from drapery.cloth.state import State
+from drapery.cloth.strain import NEVER, StrainLimit, strain_of
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
@@ -63,10 +64,12 @@ class Collisions:
         check_count("rounds", self.rounds, 1, 100)
 
 
-def collision_world(cloth: Cloth, collisions: Collisions) -> CollisionWorld:
+def collision_world(
+    cloth: Cloth, collisions: Collisions, limit: StrainLimit = NEVER
+) -> CollisionWorld:
     """The collision world of one cloth; any number of steps and threads may use it.
 
-    Raises OptionError.
+    limit: of its strain. Raises OptionError.
     """
     apart = collisions.apart
     return CollisionWorld(
@@ -78,6 +81,7 @@ def collision_world(cloth: Cloth, collisions: Collisions) -> CollisionWorld:
         stretch_limits(cloth, collisions.limit, 1),
         collisions.rounds,
         collisions.threads,
+        limit,
     )
 
 
@@ -133,22 +137,26 @@ def met_inside(cloth: Cloth, collisions: Collisions) -> BoxColliders | None:
     return replace(boxes, itself=make_self_contact(cloth, collisions.apart))
 
 
-def resolver(cloth: Cloth, collisions: Collisions) -> Callable[[State, State], State]:
-    """The collision stage after each step of any solver. Raises OptionError."""
-    stage = contact_stage(cloth, collisions)
-    return collision_world(cloth, collisions).resolve if stage is None else stage.resolve
+def resolver(
+    cloth: Cloth, collisions: Collisions, limit: StrainLimit = NEVER
+) -> Callable[[State, State], State]:
+    """The collision stage after each step of any solver. limit: of strain. Raises OptionError."""
+    stage = contact_stage(cloth, collisions, limit)
+    return (collision_world(cloth, collisions, limit) if stage is None else stage).resolve
 
 
-def contact_stage(cloth: Cloth, collisions: Collisions) -> "ContactStage | None":
+def contact_stage(
+    cloth: Cloth, collisions: Collisions, limit: StrainLimit = NEVER
+) -> "ContactStage | None":
     """The stage of a cloth that meets itself and only boxes; None for all else.
 
-    Raises OptionError.
+    limit: of its strain. Raises OptionError.
     """
     boxes = boxes_met(cloth, collisions)
     if boxes is None or collisions.apart is None:
         return None
     contact = make_self_contact(cloth, collisions.apart)
-    return ContactStage(contact, boxes, collisions.threads)
+    return ContactStage(contact, boxes, collisions.threads, limit)
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,6 +166,7 @@ class ContactStage:
     contact: SelfContact
     boxes: BoxColliders
     threads: int | None
+    limit: StrainLimit = NEVER
 
     def resolve(
         self, before: State, after: State, carrier: tuple[Array, Array] | None = None
@@ -168,7 +177,7 @@ class ContactStage:
         shift [m], shape [3]. What contact stops then moves with that body.
         """
         start, wanted = (np.array(s.positions, float, order="C") for s in (before, after))
-        x, carried = wanted.copy(), np.zeros(wanted.shape[:2])
+        x, carried, long = wanted.copy(), np.zeros(wanted.shape[:2]), []
         boxes, dt = self.boxes.step(before.time, after.time), after.time - before.time
         begun = start
         if carrier is not None:
@@ -180,7 +189,10 @@ class ContactStage:
             boxes = boxes._replace(starts=np.hstack([places, turns.reshape(-1, 9)]))
 
         def work(first: int, last: int) -> None:
-            meet_all(begun, x, carried, first, last, self.contact, boxes)
+            block = begun, x, (first, last), boxes, self.contact, self.limit
+            carried[first:last], is_long = resolve_block(*block)
+            if is_long:
+                long.append(first)
 
         run_blocks(work, len(x), 1, thread_count(self.threads))
         velocities = np.array(after.velocities, float)
@@ -194,4 +206,5 @@ class ContactStage:
         changed = (x != wanted).any(axis=(1, 2), keepdims=True)
         moving = np.where(changed, part * seen, velocities)
         dtype = after.positions.dtype
-        return replace(after, positions=x.astype(dtype), velocities=moving.astype(dtype))
+        strain = max(before.strain, strain_of(x, self.limit) if long else 0.0)
+        return State(x.astype(dtype), moving.astype(dtype), after.time, strain)

@@ -163,7 +163,8 @@ def _narrowed(batch: Batch, lanes: int, wind: LiveWind) -> Batch:
         gusts=gusts,
         width=lanes,
         residuals=cut(batch.residuals),
-        work=_zeros(contact_work(batch.contact, batch.itself)),
+        work=_zeros(contact_work(batch.contact, len(batch.x) // 3)),
+        strains=cut(batch.strains),
     )
 
 
@@ -221,6 +222,10 @@ def play(live: Any, plan: Any, batch: Any, substeps: Any) -> Any:
             batch.work,
             batch.often,
             batch.cloths,
+            batch.limit,
+            batch.squares,
+            batch.strains,
+            batch.limit_strain,
         )
         step_plan(plan, here, substeps)
         for row in range(batch.x.shape[0]):

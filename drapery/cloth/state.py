@@ -20,11 +20,14 @@ class State:
     positions: [m], shape [B, N, 3].
     velocities: [m/s], shape [B, N, 3].
     time: [s].
+    strain: how far the longest structural spring was over its limit, as a part of that limit, in
+        all steps that led here; 0 where all springs were held. See `drapery.cloth.strain`.
     """
 
     positions: Array
     velocities: Array
     time: float = 0.0
+    strain: float = 0.0
 
 
 def rest_state(cloth: Cloth, count: int = 1, dtype: DTypeLike = np.float32) -> State:

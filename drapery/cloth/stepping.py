@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Self
 
+import numpy as np
+
 from drapery.cloth.checks import shown
-from drapery.cloth.cloth import Cloth
+from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.forces import Force, Gravity, lower_forces
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import Solver, check_state, check_step
 from drapery.cloth.solvers.desbrun import SolverDesbrun
 from drapery.cloth.solvers.driver import KernelSolver
 from drapery.cloth.state import State, rest_state
+from drapery.cloth.strain import NEVER
 from drapery.errors import OptionError
 
 if TYPE_CHECKING:
     from drapery.cloth.collisions import Collisions
     from drapery.cloth.contact.box_data import BoxColliders
+
+
+TOLD = 0.02
+"""A strain over its limit by more than this part is warned of: it can be seen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +67,14 @@ class MovingCloth:
         return MovingCloth(cloth, solver, dt, state, solver_state, *met)
 
     def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
-        """The cloths some time steps later. Raises OptionError where they are torn to infinity."""
+        """The cloths some time steps later. Raises OptionError where they are torn to infinity.
+
+        Warns where pins or colliders pull cloth apart for the first time.
+        """
+        return self.unmet(forces, steps, pins).after(self.state)
+
+    def unmet(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
+        """The same before contact with cloths of other topologies, which the caller resolves."""
         check_step(self.dt, steps)
         state, solver_state = self.state, self.solver_state
         # One call makes all steps, unless the collision stage follows each.
@@ -72,6 +87,11 @@ class MovingCloth:
             )
             state = state if self.resolve is None else self.resolve(before, state)
         return replace(self, state=state, solver_state=solver_state)
+
+    def after(self, before: State) -> Self:
+        """These cloths, with a warning if their strain was not held since a state."""
+        warn_of_strain(self.cloth, before, self.state)
+        return self
 
 
 def _contact_of(
@@ -87,7 +107,30 @@ def _contact_of(
     if inside and collisions.apart is not None:
         inside = not solver_state.often  # contact of a cloth with itself is resolved once a step
     boxes = met_inside(cloth, collisions) if inside else None
-    return (None, boxes) if boxes is not None else (resolver(cloth, collisions), None)
+    if boxes is not None:
+        return None, boxes
+    limit = solver_state.limit if isinstance(solver, KernelSolver) else NEVER
+    return resolver(cloth, collisions, limit), None
+
+
+def warn_of_strain(cloth: Cloth, before: State, after: State) -> None:
+    """Warn of cloth whose strain is over its limit by more than `TOLD` for the first time since its
+    motion began. before, after: its states at the start and the end of some steps."""
+    if before.strain > TOLD or after.strain <= TOLD:
+        return
+    springs = np.flatnonzero(cloth.spring_kind == STRUCTURAL)
+    ends = np.asarray(after.positions, float)[:, cloth.spring_pairs[springs]]
+    offsets = ends[:, :, 1] - ends[:, :, 0]
+    ratios = np.sqrt((offsets * offsets).sum(axis=-1)) / cloth.spring_length[springs]
+    number, longest = np.unravel_index(ratios.argmax(), ratios.shape)
+    i, j = cloth.spring_pairs[springs[longest]]
+    place = ", ".join(f"{each:.3g}" for each in ends[number, longest].mean(axis=0))
+    warnings.warn(
+        f"pins or colliders pull cloth {number} apart: before {after.time:.4g} s an edge was "
+        f"{100 * after.strain:.3g} % over its longest length, now most between particles {i} and "
+        f"{j} at ({place}) m; move them less far apart, or pin fewer particles",
+        stacklevel=4,
+    )
 
 
 def simulate(

@@ -14,6 +14,7 @@ from drapery.cloth import Cloth, Collider, Collisions, State, sew
 from drapery.cloth.bending import NO_BENDING
 from drapery.cloth.colliders import TablePath
 from drapery.cloth.collisions import contact_stage
+from drapery.cloth.strain import MOST_STRETCH, strain_limit, strain_of
 from drapery.garments.assembly import SewnCloth
 from drapery.mesh import Array
 
@@ -44,8 +45,10 @@ def joint_contact(
     thick = sorted(each.thickness for each in sewn)
     apart = (thick[-2] + thick[-1]) / 2
     met = Collisions(colliders, min(each.distance for each in sewn), apart=apart)
-    contact = contact_stage(sew([_passive(each.cloth) for each in sewn]), met)
+    cloth = sew([_passive(each.cloth) for each in sewn])
+    contact = contact_stage(cloth, met, strain_limit(cloth, MOST_STRETCH))
     assert contact is not None, "colliders are boxes and planes"
+    limits = [strain_limit(each.cloth, MOST_STRETCH) for each in sewn]
     ends = np.cumsum([len(each.start) for each in sewn])[:-1]
 
     def stage(before: Sequence[State], after: Sequence[State]) -> list[State]:
@@ -53,8 +56,8 @@ def joint_contact(
         found = contact.resolve(start, end, _moved(*body.at(np.array([start.time, end.time]))))
         parts = [np.split(part, ends, axis=1) for part in (found.positions, found.velocities)]
         return [
-            replace(state, positions=places, velocities=velocities)
-            for state, places, velocities in zip(after, *parts, strict=True)
+            State(places, velocities, found.time, max(old.strain, strain_of(places, limit)))
+            for old, limit, places, velocities in zip(before, limits, *parts, strict=True)
         ]
 
     return stage

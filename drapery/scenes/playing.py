@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner.design import MAX_LAYERS
-from drapery.cloth import Force, MovingCloth, Wind
+from drapery.cloth import Force, MovingCloth, Wind, strain
 from drapery.cloth.contact import lanes_contact
 from drapery.cloth.live import STILL, LiveMotion, live_call
 from drapery.cloth.live import play as play_cloth  # what is called `play` here is a scene
@@ -229,7 +229,10 @@ def _live_panel(cloth: PlayedCloth, staging: Staging, lanes: int | None) -> Live
             "wind": blown.velocity,
             **{name: getattr(shell, name) for name in ("vertices", "normals", "light")},
         },
-        {"resolve": (lanes_contact.resolve, lanes_contact.EXAMPLE)},
+        {
+            "resolve": (lanes_contact.resolve, lanes_contact.EXAMPLE),
+            "limit_strain": (strain.limit_strain, strain.EXAMPLE),
+        },
     )
 
 

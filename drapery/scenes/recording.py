@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
+from typing import Any
 
 import numpy as np
 
@@ -136,22 +137,21 @@ def _motion(
     forces = [each.forces(at.period) for each in drapes]
     moving = [each.begin(at.dt) for each in drapes]
 
-    def advance(numbers: Sequence[int], steps: int) -> None:
-        for number in numbers:
-            pins = drapes[number].pins
-            moving[number] = moving[number].advance(forces[number], steps, pins)
+    def given(number: int, steps: int) -> tuple[Any, ...]:
+        return forces[number], steps, drapes[number].pins
 
     while True:
         yield [each.state for each in moving]
-        advance(alone, at.every)
+        for number in alone:
+            moving[number] = moving[number].advance(*given(number, at.every))
         if meeting is None:
             continue
         for _ in range(at.every):
             before = [moving[number].state for number in together]
-            advance(together, 1)
-            after = [moving[number].state for number in together]
-            for number, state in zip(together, meeting.resolve(before, after), strict=True):
-                moving[number] = replace(moving[number], state=state)
+            moved = [moving[number].unmet(*given(number, 1)) for number in together]
+            met = meeting.resolve(before, [each.state for each in moved])
+            for number, each, old, state in zip(together, moved, before, met, strict=True):
+                moving[number] = replace(each, state=state).after(old)
 
 
 def close_loop(motion: Array, before: int) -> Array:

@@ -13,7 +13,7 @@ fixed order, one after another.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -27,10 +27,11 @@ from drapery.cloth.colliders.sampling import SamplePoints
 from drapery.cloth.colliders.sweep import BOUNCED, MISSED, ContactParams, RigidSweep, sweep_point
 from drapery.cloth.colliders.vectors import Vector, add_scaled, norm, row, scale, subtract
 from drapery.cloth.contact.box_data import NO_CONTACT
-from drapery.cloth.contact.self_contact import meet_all
+from drapery.cloth.contact.lanes_contact import STRAIN_ROUNDS, resolve_block
 from drapery.cloth.contact.self_contact_data import SelfContact
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
+from drapery.cloth.strain import NEVER, StrainLimit, limit_strain, strain_of
 from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
@@ -63,6 +64,8 @@ class CollisionWorld:
     attachments: springs to shorten where colliders stretched them. Colliders are then applied
         again, `rounds` times in all.
     threads: None for as many as there are processors.
+    limit: of the strain of each cloth. Where it is exceeded in the end, springs are shortened and
+        colliders applied once more, some times.
     """
 
     inv_mass: Array
@@ -73,6 +76,7 @@ class CollisionWorld:
     attachments: Attachments | None = None
     rounds: int = 1
     threads: int | None = None
+    limit: StrainLimit = NEVER
 
     def resolve(self, before: State, after: State) -> State:
         """The state after a step, with penetrations of colliders and of the cloth itself resolved.
@@ -95,8 +99,8 @@ class CollisionWorld:
             self._resolve_block(first, last, motion, sweeps, dt)
 
         run_blocks(work, len(start), 1, thread_count(self.threads))
-        dtype = after.positions.dtype
-        return replace(after, positions=x.astype(dtype), velocities=v.astype(dtype))
+        dtype, strain = after.positions.dtype, max(before.strain, strain_of(x, self.limit))
+        return State(x.astype(dtype), v.astype(dtype), after.time, strain)
 
     def _resolve_block(
         self, first: int, last: int, motion: ClothMotion, sweeps: Sequence[RigidSweep], dt: float
@@ -104,14 +108,25 @@ class CollisionWorld:
         """Cloths first..last of a batch; each is one thread's alone, so threads change no bit."""
         solved, speeds = motion.x[first:last].copy(), motion.v[first:last].copy()
         if self.self_contact is not None:
-            none = np.empty(motion.bounced.shape)
-            meet_all(motion.start, motion.x, none, first, last, self.self_contact, NO_CONTACT)
+            block = motion.start, motion.x, (first, last)
+            resolve_block(*block, NO_CONTACT, self.self_contact)
         active = np.ones(len(motion.x), np.bool_)
-        for number in range(self.rounds):
+
+        def collide() -> None:
             for collider, sweep in zip(self.colliders, sweeps, strict=True):
                 self._collide_block(first, last, collider, sweep, motion, active, dt)
+
+        for number in range(self.rounds):
+            collide()
             if number + 1 < self.rounds and self.attachments is not None:
                 shorten_all(first, last, motion.x, self.attachments, active)
+        active[:] = True
+        for _ in range(STRAIN_ROUNDS):
+            for cloth in np.flatnonzero(active[first:last]) + first:
+                active[cloth] = limit_strain(motion.start[cloth], motion.x[cloth], self.limit)
+            if not active[first:last].any():
+                break
+            collide()
         update_velocities(first, last, motion, solved, speeds, dt)
 
     def _collide_block(

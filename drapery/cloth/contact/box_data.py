@@ -12,7 +12,6 @@ from drapery.cloth.colliders.pose import Path, Pose, TablePath, still
 from drapery.cloth.colliders.shapes import Box, Plane, Shape
 from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
 from drapery.cloth.lanes import time_blocks
-from drapery.jit import kernel
 from drapery.mesh import Array
 
 REACH = 1.5
@@ -236,6 +235,3 @@ def candidate_arrays(contact: BoxContact) -> Candidates:
         np.zeros((particles, TRACK)),
         np.full(1, contact.radius),
     )
-
-
-empty_candidates = kernel(candidate_arrays)

@@ -2,9 +2,9 @@
 
 A solver moves the cloth without regard to boxes. Then, still in the same compiled loop, registers
 of cloths, or of particles of one cloth, are compared with the bounds of the boxes. A cloth that may
-touch one, or that meets itself, is copied to an array [N, 3], its contacts are resolved, and the
-next step starts from there. The kernels call `resolve` by its address, so it is compiled once for
-all of them.
+touch one, or that meets itself, is copied to an array [N, 3], its contacts are resolved, its strain
+is limited (see `drapery.cloth.strain`), and the next step starts from there. The kernels call
+`resolve` by its address, so it is compiled once for all of them.
 """
 
 from functools import cache
@@ -31,6 +31,16 @@ from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
 from drapery.cloth.kernels import load_lanes
 from drapery.cloth.sheet_kernels import lane_of
 from drapery.cloth.simd import fill, lane_count, load, maximum, minimum, store
+from drapery.cloth.strain import (
+    NEVER,
+    StrainLimit,
+    call_limit,
+    excess_of_lanes,
+    go_back,
+    longest_ratio,
+    plane_is_long,
+    shorten_long,
+)
 from drapery.jit import address_of, call_by_address, entry_point, kernel
 from drapery.mesh import Array
 
@@ -43,13 +53,18 @@ contact holds, more from step to step."""
 MOST_CONTACTS = 32
 """Then contacts are resolved in every substep, or in some of them, so many times at most. (Those of
 `xpbd` are in every substep.)"""
+STRAIN_ROUNDS = 6
+"""How often contact is resolved again after springs that are too long were shortened."""
+TORN, LONG = 3, 4
+"""What `resolve` returns beside `MET` and `HELD`: the step shall be made again; a spring is still
+too long."""
 
 
 class ContactWork(NamedTuple):
-    """start, end: places of one cloth at the start and the end of a step [m], [N, 3]; N is 0
-    without contact. solved: where its solver left it at the end, [N, 3]. starts, ends: poses of the
-    boxes, [K, 12]. extents: the lowest and the highest coordinates of what each box keeps free [m],
-    [K, 6]. near: see `Candidates`."""
+    """start, end: places of one cloth at the start and the end of a step [m], [N, 3]. solved: where
+    its solver left it at the end, [N, 3]. starts, ends: poses of the boxes, [K, 12]. extents: the
+    lowest and the highest coordinates of what each box keeps free [m], [K, 6]. near: see
+    `Candidates`."""
 
     start: Array
     end: Array
@@ -60,9 +75,8 @@ class ContactWork(NamedTuple):
     near: Candidates
 
 
-def contact_work(contact: BoxContact, itself: SelfContact = NOT_ITSELF) -> ContactWork:
+def contact_work(contact: BoxContact, particles: int = 0) -> ContactWork:
     """Arrays for the contact of one cloth at a time."""
-    particles = max(contact.inv_mass.size if len(contact.halves) > 0 else 0, itself.inv_mass.size)
     return ContactWork(
         np.empty((particles, 3)),
         np.empty((particles, 3)),
@@ -92,14 +106,66 @@ def contact_of(boxes: Any, work: Any) -> BoxContact:
 
 
 @entry_point
-def resolve(work: Any, boxes: Any, itself: Any) -> int:
-    """Resolve the contacts of a cloth with boxes and with itself between work.start and work.end.
-    Returns whether it had any, see `meet_one`."""
+def resolve(work: Any, boxes: Any, itself: Any, limit: Any, careful: int) -> int:
+    """Resolve the contacts of a cloth with boxes and with itself between work.start and work.end,
+    then limit its strain. Returns 0 if it had neither, else `MET`, `HELD` or `LONG`; or, unless
+    careful is 1, `TORN` where the step shall be made again."""
     reset_tracks(work.near)
-    return meet_one(work.start, work.end, itself, contact_of(boxes, work), work.near)
+    contact = contact_of(boxes, work)
+    met = meet_one(work.start, work.end, itself, contact, work.near)
+    if careful == 0 and is_torn(work, boxes, itself, met):
+        return TORN
+    if longest_ratio(work.end, limit) <= 1.0:
+        return met
+    for _ in range(STRAIN_ROUNDS):
+        shorten_long(work.end, limit)
+        meet_one(work.start, work.end, itself, contact, work.near)
+        if longest_ratio(work.end, limit) <= 1.0:
+            return MET
+    # The way back would lead into a box that moves.
+    if not boxes_move(work) and go_back(work.start, work.end, limit):
+        meet_one(work.start, work.end, itself, contact, work.near)
+    return MET if longest_ratio(work.end, limit) <= 1.0 else LONG
 
 
-EXAMPLE = (contact_work(NO_CONTACT), NO_CONTACT, NOT_ITSELF)
+@kernel
+def boxes_move(work: Any) -> bool:
+    """Whether a box has another pose at the end of a step than at its start."""
+    for k in range(work.starts.shape[0]):
+        for n in range(12):
+            if work.starts[k, n] != work.ends[k, n]:
+                return True
+    return False
+
+
+def resolve_block(
+    start: Array,
+    x: Array,
+    block: tuple[int, int],
+    boxes: BoxContact,
+    itself: SelfContact,
+    limit: StrainLimit = NEVER,
+) -> tuple[Array, bool]:
+    """Resolve the contacts of cloths first..last = block with boxes and with themselves, then limit
+    their strain: what `resolve` does for one.
+
+    start, x: places at the start and the end of a step [m], [B, N, 3]; x is changed.
+    Returns how far the boxes that moved a particle moved there [m], [last - first, N], and whether
+    a spring is still too long.
+    """
+    work, long = contact_work(boxes, x.shape[1]), False
+    work.starts[:], work.ends[:] = boxes.starts, boxes.ends
+    carried = np.zeros((block[1] - block[0], x.shape[1]))
+    for cloth in range(*block):
+        work.start[:], work.end[:] = start[cloth], x[cloth]
+        long = resolve(work, boxes, itself, limit, 1) == LONG or long
+        x[cloth] = work.end
+        if len(boxes.halves):
+            carried[cloth - block[0]] = work.near.tracks[:, CARRIED]
+    return carried, long
+
+
+EXAMPLE = (contact_work(NO_CONTACT), NO_CONTACT, NOT_ITSELF, NEVER, 0)
 _resolve_at = call_by_address(int, EXAMPLE)
 
 
@@ -116,12 +182,18 @@ def meets_itself(batch: Any) -> bool:
 
 
 @kernel
+def meets_any(batch: Any) -> bool:
+    """Whether each cloth meets boxes or itself."""
+    return len(batch.contact.halves) > 0 or meets_itself(batch)
+
+
+@kernel
 def begin_lanes(y: Any, u: Any, batch: Any) -> Any:
     """What contact keeps of a block of lanes y, u [3N, L], [3N, L]: the places and velocities at
     the start of a step, 3N rows each; the places and velocities at its end in lanes whose step is
     not made again, 3N rows each; 1 in lanes whose step may be or is, 0 in others. Empty without
     contact. The rows do not depend on the substeps: whoever asks for a step again can have it."""
-    rows = 4 * y.shape[0] + 1 if batch.work.end.shape[0] > 0 else 0
+    rows = 4 * y.shape[0] + 1 if meets_any(batch) else 0
     before = simd.empty_lanes(rows, y.shape[1], y)
     if rows > 0:
         for lane in range(y.shape[1]):
@@ -148,22 +220,29 @@ def meet_lanes(
     before: see `begin_lanes`. when: see `place_boxes`. careful: the step is not made again, since
     that is being done, in lanes with a 1, or since it has no substeps.
     """
-    if before.shape[0] == 0:
-        return False
     rows, lanes, again = y.shape[0], lane_count(y), False
+    gaps, long = simd.empty_lanes(1, lanes, y), simd.empty_lanes(1, lanes, y)
+    if before.shape[0] == 0:
+        for first in range(0, min(y.shape[1], batch.cloths - start), lanes):
+            excess_of_lanes(long, y, batch.limit, first)
+            for cloth in range(first, min(first + lanes, batch.cloths - start)):
+                if long[0, cloth - first] > 0:
+                    limit_lane(y, u, batch, start, cloth, dt)
+        return False
     place_boxes(batch, when)
-    gaps = simd.empty_lanes(1, lanes, y)
     for first in range(0, min(y.shape[1], batch.cloths - start), lanes):
         if not meets_itself(batch):
             extents, bands = batch.work.extents, batch.contact.bands
             store(gaps, 0, 0, gap_of_lanes(before, y, extents, bands, first))
+            excess_of_lanes(long, y, batch.limit, first)
         for cloth in range(first, min(first + lanes, batch.cloths - start)):
-            near = meets_itself(batch) or gaps[0, cloth - first] < 0
+            at = cloth - first
+            near = meets_itself(batch) or gaps[0, at] < 0 or long[0, at] > 0
             if careful:
                 if near and before[4 * rows, cloth] > 0:
-                    meet_lane(y, u, before, batch, cloth, dt, True)
+                    meet_lane(y, u, before, batch, start, cloth, dt, 1)
             else:
-                held = near and meet_lane(y, u, before, batch, cloth, dt, False)
+                held = near and meet_lane(y, u, before, batch, start, cloth, dt, 0)
                 before[4 * rows, cloth] = held
                 again = again or held
     if again:
@@ -213,16 +292,41 @@ def meet_substep(
 
 
 @kernel
-def meet_lane(y: Any, u: Any, before: Any, batch: Any, cloth: Any, dt: Any, careful: Any) -> Any:
+def meet_lane(
+    y: Any, u: Any, before: Any, batch: Any, start: Any, cloth: Any, dt: Any, careful: Any
+) -> Any:
     """Resolve the contacts of one lane; returns whether its step shall be made again instead."""
     work = batch.work
     for i in range(work.end.shape[0]):
         for axis in range(3):
             work.start[i, axis] = before[3 * i + axis, cloth]
             work.end[i, axis] = work.solved[i, axis] = y[3 * i + axis, cloth]
-    met = _resolve_at(batch.resolve, (work, batch.contact, batch.itself))
-    if not careful and is_torn(work, batch, met):
+    given = work, batch.contact, batch.itself, batch.limit, careful
+    met = _resolve_at(batch.resolve, given)
+    if met == TORN:
         return True
+    note_strain(batch, start + cloth, met)
+    take_lane(y, u, batch, cloth, dt, met)
+    return False
+
+
+@kernel
+def limit_lane(y: Any, u: Any, batch: Any, start: Any, cloth: Any, dt: Any) -> None:
+    """Limit the strain of one lane that meets nothing."""
+    work = batch.work
+    for i in range(work.end.shape[0]):
+        for axis in range(3):
+            work.end[i, axis] = work.solved[i, axis] = y[3 * i + axis, cloth]
+            work.start[i, axis] = work.solved[i, axis] - dt * u[3 * i + axis, cloth]
+    met = call_limit(batch.limit_strain, (work.start, work.end, batch.limit))
+    note_strain(batch, start + cloth, LONG)
+    take_lane(y, u, batch, cloth, dt, met)
+
+
+@kernel
+def take_lane(y: Any, u: Any, batch: Any, cloth: Any, dt: Any, met: Any) -> None:
+    """Take the places in batch.work into one lane, and velocities that fit them."""
+    work = batch.work
     for i in range(work.end.shape[0] if met else 0):
         if row(work.end, i) != row(work.solved, i):
             solved = u[3 * i, cloth], u[3 * i + 1, cloth], u[3 * i + 2, cloth]
@@ -230,14 +334,21 @@ def meet_lane(y: Any, u: Any, before: Any, batch: Any, cloth: Any, dt: Any, care
             for axis in range(3):
                 y[3 * i + axis, cloth] = work.end[i, axis]
                 u[3 * i + axis, cloth] = speed[axis]
-    return False
+
+
+@kernel
+def note_strain(batch: Any, cloth: Any, met: Any) -> None:
+    """Note how far a spring of a cloth is over its limit, if it was not held. met: of `resolve`."""
+    if met == LONG:
+        ratio = longest_ratio(batch.work.end, batch.limit)
+        batch.strains[cloth] = max(batch.strains[cloth], ratio)
 
 
 @kernel
 def begin_plane(y: Any, u: Any, batch: Any, sheet: Any) -> Any:
     """What contact keeps of one cloth as a plane of lanes: its places and velocities before the
     first step, [6, lanes]."""
-    before = simd.empty_lanes(6, sheet.plane if batch.work.end.shape[0] > 0 else 0, y)
+    before = simd.empty_lanes(6, sheet.plane if meets_any(batch) else 0, y)
     keep_plane(before, y, u)
     return before
 
@@ -251,27 +362,41 @@ def keep_plane(before: Any, y: Any, u: Any) -> None:
 
 @kernel
 def meet_plane(
-    y: Any, u: Any, before: Any, batch: Any, when: Any, dt: Any, sheet: Any, careful: Any
+    y: Any,
+    u: Any,
+    before: Any,
+    batch: Any,
+    cloth: Any,
+    when: Any,
+    dt: Any,
+    sheet: Any,
+    careful: Any,
 ) -> Any:
-    """The same as `meet_lanes` for a plane y, u [3, lanes]."""
-    work = batch.work
-    if before.shape[1] == 0:
-        return False
-    place_boxes(batch, when)
-    if meets_itself(batch) or near_plane(before, y, work.extents, sheet):
-        for r in range(sheet.rows):
-            for c in range(sheet.columns):
-                i, lane = r * sheet.columns + c, r * sheet.width + c
-                for axis in range(3):
-                    work.start[i, axis] = before[axis, lane]
-                    work.end[i, axis] = work.solved[i, axis] = y[axis, lane]
-        met = _resolve_at(batch.resolve, (work, batch.contact, batch.itself))
-        if not careful and is_torn(work, batch, met):
+    """The same as `meet_lanes` for a plane y, u [3, lanes] of a cloth."""
+    work, meets = batch.work, before.shape[1] > 0
+    if meets:
+        place_boxes(batch, when)
+    near = meets and (meets_itself(batch) or near_plane(before, y, work.extents, sheet))
+    if near or plane_is_long(y, batch.squares, sheet):
+        for i in range(work.end.shape[0]):
+            lane = lane_of(i, sheet)
             for axis in range(3):
-                for lane in range(before.shape[1]):
-                    y[axis, lane] = before[axis, lane]
-                    u[axis, lane] = before[3 + axis, lane]
-            return True
+                work.end[i, axis] = work.solved[i, axis] = y[axis, lane]
+                way = y[axis, lane] - dt * u[axis, lane]
+                work.start[i, axis] = before[axis, lane] if meets else way
+        if meets:
+            asked = work, batch.contact, batch.itself, batch.limit, np.int64(careful)
+            met = _resolve_at(batch.resolve, asked)
+            if met == TORN:
+                for axis in range(3):
+                    for lane in range(before.shape[1]):
+                        y[axis, lane] = before[axis, lane]
+                        u[axis, lane] = before[3 + axis, lane]
+                return True
+        else:
+            given = work.start, work.end, batch.limit
+            met = LONG * call_limit(batch.limit_strain, given)
+        note_strain(batch, cloth, met)
         for i in range(work.end.shape[0] if met else 0):
             lane = lane_of(i, sheet)
             if row(work.end, i) != row(work.solved, i):
@@ -279,15 +404,16 @@ def meet_plane(
                 for axis in range(3):
                     y[axis, lane] = work.end[i, axis]
                     u[axis, lane] = speed[axis]
-    keep_plane(before, y, u)
+    if meets:
+        keep_plane(before, y, u)
     return False
 
 
 @kernel
-def is_torn(work: Any, batch: Any, met: Any) -> bool:
-    """Whether contact held parts of the cloth or stretched it, see STRETCH. met: of `resolve`."""
+def is_torn(work: Any, boxes: Any, itself: Any, met: Any) -> bool:
+    """Whether contact held parts of the cloth or stretched it, see STRETCH. met: of `meet_one`."""
     if met == MET:
-        edges = batch.itself.edges if meets_itself(batch) else batch.contact.edges
+        edges = itself.edges if len(itself.triangles) > 0 else boxes.edges
         for n in range(len(edges)):
             i, j = edges[n, 0], edges[n, 1]
             solved = subtract(row(work.solved, i), row(work.solved, j))

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from drapery.cloth.colliders.vectors import add_scaled, dot, norm, row, scale, subtract
 from drapery.cloth.contact.box_contact import meet_boxes, meet_close_boxes
-from drapery.cloth.contact.box_data import HELD, MET, BoxContact, Candidates, empty_candidates
-from drapery.cloth.contact.box_frame import CARRIED, reset_tracks
+from drapery.cloth.contact.box_data import HELD, MET, BoxContact, Candidates
 from drapery.cloth.contact.box_guard import begins_inside, guard_boxes
 from drapery.cloth.contact.geometry import put
 from drapery.cloth.contact.near_boxes import find_boxes, whole_margin
@@ -21,7 +20,7 @@ from drapery.cloth.contact.safe_steps import shorten_unsafe
 from drapery.cloth.contact.self_contact_data import SelfContact
 from drapery.cloth.contact.smoothness import Windows, is_all_smooth, stay_smooth, windows_of
 from drapery.cloth.contact.touching_pairs import REACH, TouchingPairs, find_pairs, moved
-from drapery.jit import borrowing_kernel, entry_point, kernel
+from drapery.jit import borrowing_kernel, kernel
 from drapery.mesh import Array
 
 PASSES = 4
@@ -43,32 +42,13 @@ FRICTION = 0.3
 """Coulomb's coefficient between cloths: wool on wool has 0.3 to 0.5."""
 
 
-@entry_point
-def meet_all(
-    x0: Array,
-    x: Array,
-    carried: Array,
-    begin: int,
-    end: int,
-    contact: SelfContact,
-    boxes: BoxContact,
-) -> None:
-    """Resolve the contacts of cloths begin..end with themselves and with boxes.
-
-    x0, x: places at the start and the end of a step [m], [B, N, 3]; x is changed.
-    carried: is set to how far the boxes that moved a particle moved there [m], [B, N].
-    """
-    near = empty_candidates(boxes)
-    for cloth in range(begin, end):
-        reset_tracks(near)
-        meet_one(x0[cloth], x[cloth], contact, boxes, near)
-        for i in range(len(near.tracks)):
-            carried[cloth, i] = near.tracks[i, CARRIED]
-
-
 @kernel
 def meet_one(x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near: Candidates) -> int:
-    """The same for one cloth, [N, 3]; returns 0, `MET` or `HELD`, see `box_data`."""
+    """Resolve the contacts of one cloth with itself and with boxes; returns 0, `MET` or `HELD`, see
+    `box_data`.
+
+    x0, x: places at the start and the end of a step [m], [N, 3]; x is changed.
+    """
     met = meet_close_boxes(x0, x, boxes, near) if len(boxes.halves) > 0 else 0
     if len(contact.triangles) == 0:
         return met

@@ -51,6 +51,7 @@ from drapery.cloth.solvers.driver import (
     check_common,
 )
 from drapery.cloth.spin import Correction, NoSpin, Spin, spin_correction
+from drapery.cloth.strain import allowed_stretch, plane_squares, strain_limit
 from drapery.jit import entry_point
 
 MAX_CELLS = 60
@@ -103,13 +104,17 @@ class SolverDesbrun(KernelSolver):
         substeps = self.substeps or -(-max(cloth.grid_shape or (1,)) // MAX_CELLS)
         h = dt / substeps
         pinned = (cloth.inv_mass == 0).any()
+        limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
         if is_sheet(cloth) and is_regular(cloth) and (pinned or self.angular == "none"):
             fine = sheet_plan(cloth, h, self.limit, self.sweeps)
-            return SolverState(fine, dt, substeps, _advance_sheet, alone=True)
+            squares = plane_squares(fine.sheet, limit)
+            return SolverState(
+                fine, dt, substeps, _advance_sheet, alone=True, limit=limit, squares=squares
+            )
         attachments = stretch_limits(cloth, self.limit, self.sweeps)
         spin = spin_correction(cloth, h, self.angular)
         plan = DesbrunPlan(body_of(cloth), cloth_filter(cloth, h), attachments, spin)
-        return SolverState(plan, dt, substeps, _advance)
+        return SolverState(plan, dt, substeps, _advance, limit=limit)
 
 
 def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> DesbrunSheetPlan:
@@ -204,6 +209,6 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
             sheet_kernels.set_velocities(u, y, old, dt, sheet)
             if (step + 1) % substeps == 0:
                 when = step // substeps, 0.0, 1.0
-                lanes_contact.meet_plane(y, u, before, batch, when, dt * substeps, sheet, True)
+                lanes_contact.meet_plane(y, u, before, batch, cloth, when, dt * substeps, sheet, 1)
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)

@@ -4,7 +4,7 @@ A method provides its plan (constant arrays) and a kernel that steps the lanes f
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +22,7 @@ from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_force
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import all_finite, check_state, check_step
 from drapery.cloth.state import State
+from drapery.cloth.strain import HELD_TO, NEVER, StrainLimit, limit_address
 from drapery.cloth.wind import Gusts
 from drapery.errors import OptionError, counted
 from drapery.jit import called_next, entry_point, kernel
@@ -69,6 +70,9 @@ class Batch(NamedTuple):
         box moves. resolve: address of the function that resolves it; 0 without contact. work:
         arrays for it, which no other thread uses.
     often: see `SolverState`. cloths: their number, B.
+    limit: the longest springs, see `drapery.cloth.strain`. squares: the same for a plane of lanes,
+        see `plane_squares`. strains: the longest spring of each cloth over its limit, in steps in
+        which that was not held; 0 where it was, [B]. limit_strain: address of the function.
     width: lanes of a block.
     residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
         0 where every solve reached the tolerance, [B].
@@ -91,6 +95,10 @@ class Batch(NamedTuple):
     work: ContactWork
     often: bool
     cloths: int
+    limit: StrainLimit
+    squares: Array
+    strains: Array
+    limit_strain: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +108,7 @@ class SolverState:
     kernel: called with first, last, plan, batch, steps, substeps and the options; it steps whole
     registers of cloths, or one cloth at a time.
     often: whether contacts are resolved in every substep, not once a step. Free cloth lies still
-    only so.
+    only so. limit, squares: see `Batch`.
     """
 
     plan: Any
@@ -110,6 +118,8 @@ class SolverState:
     options: tuple[Any, ...] = ()
     alone: bool = False
     often: bool = False
+    limit: StrainLimit = NEVER
+    squares: Array = field(default_factory=lambda: np.zeros((2, 0)))
     by_type: dict[Any, Any] = field(default_factory=dict)
 
     def of(self, dtype: Any) -> Any:
@@ -165,15 +175,15 @@ class KernelSolver:
         loads = lower_forces(forces, cloth, len(state.positions))
         at_once = 1 if loads.custom else steps
         threads = lanes.thread_count(self.threads)
-        worst = 0.0
+        worst, strain = 0.0, state.strain
         for _ in range(steps // at_once):
             state, residual = _advance(
                 cloth, state, solver_state, loads, at_once, pins, threads, boxes
             )
-            worst = max(worst, residual)
+            worst, strain = max(worst, residual), max(strain, state.strain)
         if worst > 0:
             self.warn_unsolved(worst)
-        return state, solver_state
+        return replace(state, strain=strain), solver_state
 
     def warn_unsolved(self, residual: float) -> None:
         """For solvers that iterate: warn of a residual, given as a multiple of the tolerance."""
@@ -196,7 +206,7 @@ def _advance(
         batch = with_contact(batch)
 
     def work(first: int, last: int) -> None:
-        mine = batch._replace(work=contact_work(batch.contact, batch.itself))
+        mine = batch._replace(work=contact_work(batch.contact, len(cloth.inv_mass)))
         solver_state.kernel(first, last, plan, mine, *rest)
 
     count = len(state.positions)
@@ -207,7 +217,13 @@ def _advance(
             "use a smaller dt, weaker forces or another solver"
         )
     time = state.time + steps * solver_state.dt
-    moved = State(lanes.from_lanes(batch.new_x, count), lanes.from_lanes(batch.new_v, count), time)
+    over = float(batch.strains.max(initial=0.0)) - 1
+    moved = State(
+        lanes.from_lanes(batch.new_x, count),
+        lanes.from_lanes(batch.new_v, count),
+        time,
+        over if over > HELD_TO else 0.0,
+    )
     return moved, float(batch.residuals.max(initial=0.0))
 
 
@@ -250,6 +266,10 @@ def batch_of(
         contact_work(NO_CONTACT),
         solver_state.often,
         len(state.positions),
+        solver_state.limit,
+        solver_state.squares.astype(dtype),
+        np.zeros(x.shape[1]),
+        limit_address(),
     )
 
 

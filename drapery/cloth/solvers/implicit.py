@@ -39,6 +39,7 @@ from drapery.cloth.solvers.driver import (
     load_block,
     store_block,
 )
+from drapery.cloth.strain import allowed_stretch, strain_limit
 from drapery.errors import counted
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
@@ -107,7 +108,9 @@ class SolverImplicit(KernelSolver):
         attachments = stretch_limits(cloth, self.limit, self.sweeps)
         bends = force_stencils(cloth.bending, np.ones(len(mass)))
         plan = ImplicitPlan(body_of(cloth), bends, attachments, mass, np.array([self.damping]))
-        return SolverState(plan, dt, self.substeps, _advance, (self.iterations, self.tolerance))
+        options = self.iterations, self.tolerance
+        limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
+        return SolverState(plan, dt, self.substeps, _advance, options, limit=limit)
 
     def warn_unsolved(self, residual: float) -> None:
         warnings.warn(

@@ -41,6 +41,7 @@ from drapery.cloth.solvers.driver import (
     movable,
     store_block,
 )
+from drapery.cloth.strain import allowed_stretch, strain_limit
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
@@ -153,7 +154,9 @@ class SolverPBD(KernelSolver):
             stretched(cloth, self.limit),
             keep,
         )
-        return SolverState(plan, dt, self.substeps, _advance, (self.passes, self.sweeps))
+        limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
+        options = self.passes, self.sweeps
+        return SolverState(plan, dt, self.substeps, _advance, options, limit=limit)
 
     def _constraints(self, cloth: Cloth) -> PBDConstraints:
         stiffness = np.asarray(self.stiffness, float)[cloth.spring_kind]

@@ -31,6 +31,7 @@ from drapery.cloth.solvers.driver import (
     movable,
     store_block,
 )
+from drapery.cloth.strain import allowed_stretch, strain_limit
 from drapery.jit import entry_point
 
 
@@ -63,7 +64,8 @@ class SolverProvot(KernelSolver):
         check_step(dt, 1)
         plan = ProvotPlan(body_of(cloth), listed_attachments(cloth, self.limit))
         substeps = chosen_substeps(self.substeps, cloth, dt)
-        return SolverState(plan, dt, substeps, _advance, (self.sweeps,))
+        limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
+        return SolverState(plan, dt, substeps, _advance, (self.sweeps,), limit=limit)
 
 
 def listed_attachments(cloth: Cloth, limit: float) -> Attachments:

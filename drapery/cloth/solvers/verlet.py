@@ -38,6 +38,7 @@ from drapery.cloth.solvers.driver import (
     movable,
     store_block,
 )
+from drapery.cloth.strain import allowed_stretch, strain_limit
 from drapery.jit import entry_point, kernel
 
 
@@ -74,7 +75,8 @@ class SolverVerlet(KernelSolver):
         check_step(dt, 1)
         plan = VerletPlan(body_of(cloth), half_attachments(cloth, self.limit, self.relaxation))
         substeps = chosen_substeps(self.substeps, cloth, dt)
-        return SolverState(plan, dt, substeps, _advance, (self.sweeps,))
+        limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
+        return SolverState(plan, dt, substeps, _advance, (self.sweeps,), limit=limit)
 
 
 def half_attachments(cloth: Cloth, limit: float, relaxation: float) -> Attachments:

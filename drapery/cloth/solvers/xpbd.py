@@ -62,6 +62,7 @@ from drapery.cloth.solvers.driver import (
     body_of,
     check_stepping,
 )
+from drapery.cloth.strain import MOST_STRETCH, plane_squares, strain_limit
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
@@ -160,11 +161,21 @@ class SolverXPBD(KernelSolver):
         attachments = self._attachments(cloth)
         turns = bending_turns(cloth, dt, substeps)
         often = bool((cloth.inv_mass > 0).all())
+        limit = strain_limit(cloth, MOST_STRETCH if self.compliance[0] == 0.0 else np.inf)
         if is_sheet(cloth):
             fine = sheet_plan(cloth, constraints, attachments, turns)
-            return SolverState(fine, dt, substeps, _advance_sheet, alone=True, often=often)
+            return SolverState(
+                fine,
+                dt,
+                substeps,
+                _advance_sheet,
+                alone=True,
+                often=often,
+                limit=limit,
+                squares=plane_squares(fine.sheet, limit),
+            )
         plan = XPBDPlan(body_of(cloth), constraints, *turns, attachments)
-        return SolverState(plan, dt, substeps, _advance, often=often)
+        return SolverState(plan, dt, substeps, _advance, often=often, limit=limit)
 
     def _compliances(self, cloth: Cloth) -> Array:
         own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
@@ -481,7 +492,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 if careful and substep + 1 < substeps:
                     sheet_kernels.set_velocities(u, y, old, h, sheet)
                     when = step, substep / substeps, (substep + 1) / substeps
-                    lanes_contact.meet_plane(y, u, before, batch, when, h, sheet, True)
+                    lanes_contact.meet_plane(y, u, before, batch, cloth, when, h, sheet, 1)
             sheet_kernels.set_velocities(u, y, old, h, sheet)
             if plan.limits.a.size > 0:
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)
@@ -492,7 +503,9 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 sheet_kernels.add_velocities(u, y, old, dt, sheet)
             when = step, (substeps - 1) / substeps if careful else 0.0, 1.0
             moved = h if careful else dt
-            again = lanes_contact.meet_plane(y, u, before, batch, when, moved, sheet, careful)
+            again = lanes_contact.meet_plane(
+                y, u, before, batch, cloth, when, moved, sheet, careful
+            )
             careful = again or always
             step += not again
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)

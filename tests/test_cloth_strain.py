@@ -1,0 +1,104 @@
+"""No allowed setting draws cloth with edges over their limit; see `drapery.cloth.strain`."""
+
+import numpy as np
+import pytest
+
+from drapery import Banner, Settings
+from drapery.cloth import (
+    Gravity,
+    SolverDesbrun,
+    State,
+    Wind,
+    grid,
+    max_stretch,
+    rest_state,
+    simulate,
+)
+from drapery.cloth.solvers.registry import SOLVERS, solver
+from drapery.cloth.strain import MOST_STRETCH, NEVER, allowed_stretch, limit_strain, strain_limit
+from drapery.packs import open_packs
+from drapery.scenes import LiveBody
+from drapery.style import body_of
+
+SMALL = {"grid": (9, 17)}
+STORMS = [
+    *({"solver": name, "fabric": "silk", "wind": 30.0, "gusts": 2.0, **SMALL} for name in SOLVERS),
+    {"solver": "implicit", "fabric": "wool", "wind": 20.0},
+    {"solver": "implicit", "fabric": "linen", "pins": "none", **SMALL},
+    {"solver": "pbd", "fabric": "silk", "wind": 20.0, "gusts": 2.0},
+    {"solver": "desbrun", "fabric": "silk", "wind": 40.0, "direction": 90.0},
+    {"thickness": 8.0},
+    {"solver": "provot", "fabric": "leather", "thickness": 8.0, "wind": 0.0, **SMALL},
+    {"solver": "verlet", "placement": "wall", "wind": 40.0, "direction": 180.0, **SMALL},
+]
+
+
+@pytest.mark.parametrize("options", STORMS, ids=str)
+def test_a_storm_leaves_no_edge_over_its_limit(options):
+    settings = Settings(**options)
+    live = LiveBody(body_of(Banner.parse("white"), open_packs(()), settings), settings)
+    for _ in range(6):
+        live.advance(15)
+        (moving,) = live.cloths
+        positions = moving.state.positions[0].astype(float)
+        assert 1 + max_stretch(positions, moving.cloth) <= MOST_STRETCH + 1e-5
+        assert moving.state.strain == 0.0
+
+
+def stretched(amount):
+    """A hanging grid whose lower half is farther away than its springs allow."""
+    cloth = grid(5, 9, 0.5, 1.0)
+    x = cloth.rest_positions.copy()
+    x[20:, 1] -= amount
+    return cloth, x
+
+
+def test_springs_that_are_too_long_are_shortened_and_others_keep_their_bits():
+    cloth, x = stretched(0.5)
+    limit = strain_limit(cloth, MOST_STRETCH)
+    start = x.copy()
+    assert limit_strain(start, x, limit) == 1
+    assert 1 + max_stretch(x, cloth) <= MOST_STRETCH
+    within = x.copy()
+    assert limit_strain(start, within, limit) == 0
+    assert (within == x).all()
+
+
+def test_a_solver_may_ask_for_more():
+    assert allowed_stretch(1.02, 3) == MOST_STRETCH
+    assert allowed_stretch(1.5, 3) == 1.5
+    assert strain_limit(grid(3, 3, 1.0, 1.0), allowed_stretch(1.02, 0)) is NEVER
+
+
+@pytest.mark.filterwarnings("ignore:pins or colliders pull")  # it begins torn
+@pytest.mark.parametrize("name", SOLVERS)
+@pytest.mark.parametrize("columns", [5, 16])
+def test_a_cloth_is_held_alike_alone_and_in_a_crowd(name, columns):
+    cloth = grid(columns, 9, 0.5, 1.0)
+    crowd = rest_state(cloth, 3)
+    pulled = np.array(crowd.positions)
+    pulled[1, 4 * columns :, 1] -= 0.4
+    start = State(pulled, np.zeros_like(pulled))
+    forces = Gravity(), Wind((0.0, 0.0, 9.0))
+    runs = []
+    for state in (start, State(pulled[1:2], np.zeros_like(pulled[1:2]))):
+        states = simulate(cloth, solver(name, threads=1), forces, start=state, every=9)
+        next(states)
+        runs.append(next(states).positions)
+    assert (runs[0][1] == runs[1][0]).all()
+    assert 1 + max_stretch(runs[0].astype(float), cloth) <= MOST_STRETCH + 1e-5
+
+
+def test_pins_that_move_apart_are_told():
+    cloth = grid(5, 5, 1.0, 1.0, pins="corners")
+
+    def apart(time):
+        return cloth.rest_positions[cloth.inv_mass == 0] * (1 + 4 * time)
+
+    states = simulate(cloth, SolverDesbrun(), pins=apart, every=12)
+    assert next(states).strain == 0.0
+    told = r"apart: before 0.2 s an edge was [\d.]+ % over its longest .* 0 and 1 at \(-0.59"
+    with pytest.warns(UserWarning, match=told):
+        strain = next(states).strain
+    assert strain > 0.2
+    assert next(states).strain > strain  # without a second warning
