@@ -9,7 +9,7 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.stack import PackLike
 from drapery.errors import DesignError, OptionError
-from drapery.option import Output
+from drapery.option import Output, one_of
 from drapery.render.frame import Animation, Frame, Pixels
 from drapery.render.resize import enlarge
 from drapery.render.scene import Scene
@@ -17,6 +17,9 @@ from drapery.settings import Options, Settings, check_format, frame_count, settl
 
 if TYPE_CHECKING:
     from drapery.garments.model import Garment
+
+ORIGINS = {"corner": (0.0, 0.0, 0.0), "centre": (0.5, 0.0, 0.5)}
+"""Places that may be the origin of a 3-D file [m]."""
 
 __all__ = ["animate", "draw", "draw_face", "draw_scenes", "iter_frames", "save_model"]
 
@@ -90,6 +93,7 @@ def save_model(
     *,
     seconds: float = 4.0,
     fps: float = 20.0,
+    origin: Literal["corner", "centre"] = "corner",
     progress: Callable[[int, int], object] | None = None,
     on_moment: Callable[[int, int], object] | None = None,
     **options: Unpack[Options],
@@ -98,6 +102,8 @@ def save_model(
 
     banner, settings, options: see `draw`; the ground is not written.
     seconds: length of the loop [s]; 0 for one pose. fps: its frames per second.
+    origin: that of the file: the lowest corner of the block in which a banner stands, to the west
+    and north, or the middle of the block's floor.
     progress: called with the number of finished frames and of all. on_moment: see `iter_frames`.
     Both may raise to end the work, and then there is no file.
     Raises DesignError if `banner` is something else, OptionError, PackError or OutputError.
@@ -107,6 +113,7 @@ def save_model(
     from drapery.scenes.subjects import loop, still
 
     design, chosen = _checked(banner, settings, options, "model")
+    one_of("origin", origin, tuple(ORIGINS))
     moves = check_target(path, "model").moving and seconds != 0
     if moves:
         chosen = settled_for(design, chosen, "loop")
@@ -115,9 +122,9 @@ def save_model(
     if moves:
         tick, total = progress or (lambda done, total: None), frame_count(seconds, fps)
         scenes = loop(design, packs, chosen, total, fps, on_moment)
-        save_scenes(_counted(scenes, total, tick), path, fps=fps)
+        save_scenes(_counted(scenes, total, tick), path, fps=fps, origin=ORIGINS[origin])
     else:
-        save_scenes(still(design, packs, chosen), path)
+        save_scenes(still(design, packs, chosen), path, origin=ORIGINS[origin])
     _warn_of(packs)
 
 

@@ -56,11 +56,13 @@ class Model:
     materials: the materials in use.
     material_index: index in `materials` for each member of the batch, shape [B]; None uses the
         first material for all.
+    name: its name in a 3-D file, such as `banner/cloth`; it has one by its number if it is empty.
     """
 
     mesh: Mesh
     materials: tuple[Material, ...]
     material_index: NDArray[np.int32] | None = None
+    name: str = field(default="", kw_only=True)
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,10 +25,22 @@ def test_a_banner_waves_in_a_glb(drapery: Run, tmp_path: Path) -> None:
     moving = [mesh for mesh in tree["meshes"] if "weights" in mesh]
     assert len(moving) == len(tree["meshes"]) - 1, "the wood stands still, the cloth moves"
     assert all(len(mesh["weights"]) == 4 for mesh in moving)
-    assert tree["animations"]
+    assert [each["name"] for each in tree["animations"]] == ["wave"]
+    assert [mesh["name"] for mesh in tree["meshes"]] == ["banner/pole", "banner/cloth"]
+    assert [each["doubleSided"] for each in tree["materials"]] == [False, False]
     low, high = trimesh.load_scene(target).bounds
     # A standing banner: a post and a flag within a block or so, not two blocks high.
     assert low[1] == pytest.approx(0, abs=0.01) and 1.5 < high[1] < 2
+
+
+def test_the_origin_is_in_the_middle_of_the_block_by_choice(drapery: Run, tmp_path: Path) -> None:
+    words = ("model", "red", "--seconds", 0, "-o", tmp_path / "a.glb")
+    assert drapery(*words)[0] == 0
+    corner = trimesh.load_scene(tmp_path / "a.glb").geometry["banner/pole"].bounds
+    assert drapery(*words, "--origin", "centre")[0] == 0
+    centre = trimesh.load_scene(tmp_path / "a.glb").geometry["banner/pole"].bounds
+    assert corner - centre == pytest.approx(corner * 0 + [0.5, 0, 0.5], abs=1e-6)
+    assert centre.mean(axis=0)[[0, 2]] == pytest.approx([0, 0], abs=1e-6)
 
 
 def test_one_pose_of_a_banner(drapery: Run, tmp_path: Path) -> None:

@@ -33,6 +33,8 @@ class Glb:
 
     def values(self, number: int) -> np.ndarray:
         accessor = self.json["accessors"][number]
+        if "bufferView" not in accessor:
+            return np.zeros((accessor["count"], 1))  # sparse: the weights of targets
         view = self.json["bufferViews"][accessor["bufferView"]]
         kind, width = KINDS[accessor["componentType"]], TYPES[accessor["type"]]
         flat = np.frombuffer(self.binary, kind, accessor["count"] * width, view["byteOffset"])

@@ -22,6 +22,7 @@ from drapery.render.export import save_model
 from drapery.render.light import UNLIT
 from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
+from drapery.style.boxes import ModelBox, box_mesh
 
 CAMERA = Camera((0.6, 0.5, 3.0), (0.0, 0.0, 0.0))
 
@@ -76,6 +77,9 @@ def scenes(count: int = 5) -> list[Scene]:
 
 
 SCENES = scenes()
+KINDS: dict[int, Any] = {
+    **{5126: np.float32, 5125: np.uint32, 5123: np.uint16, 5122: np.int16, 5120: np.int8}
+}
 
 
 def glb(path: Path) -> tuple[dict[str, Any], bytes]:
@@ -92,14 +96,29 @@ def glb(path: Path) -> tuple[dict[str, Any], bytes]:
 
 def values(tree: dict[str, Any], binary: bytes, number: int) -> np.ndarray:
     accessor = tree["accessors"][number]
-    view = tree["bufferViews"][accessor["bufferView"]]
     width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[accessor["type"]]
-    kind = {5126: np.float32, 5125: np.uint32}[accessor["componentType"]]
-    found = np.frombuffer(binary, kind, accessor["count"] * width, view["byteOffset"])
-    found = found.reshape(-1, width)
+    kind = KINDS[accessor["componentType"]]
+    if "sparse" in accessor:
+        found = np.zeros((accessor["count"], width), kind)
+        places, numbers = (accessor["sparse"][key] for key in ("indices", "values"))
+        count = accessor["sparse"]["count"]
+        found[raw(tree, binary, places, np.uint32, count)] = raw(
+            tree, binary, numbers, kind, count
+        )[:, None]
+    else:
+        view = tree["bufferViews"][accessor["bufferView"]]
+        stride = view.get("byteStride", width * np.dtype(kind).itemsize)
+        assert stride % 4 == 0 or accessor["type"] == "SCALAR"
+        count = accessor["count"] * stride // np.dtype(kind).itemsize
+        found = raw(tree, binary, accessor, kind, count).reshape(accessor["count"], -1)[:, :width]
     assert np.array_equal(found.min(axis=0), np.array(accessor["min"], kind))
     assert np.array_equal(found.max(axis=0), np.array(accessor["max"], kind))
-    return found
+    return found / np.iinfo(kind).max if accessor.get("normalized") else found
+
+
+def raw(tree: dict[str, Any], binary: bytes, part: dict[str, Any], kind: Any, count: int) -> Any:
+    """The first numbers of a buffer view."""
+    return np.frombuffer(binary, kind, count, tree["bufferViews"][part["bufferView"]]["byteOffset"])
 
 
 def test_the_reopened_glb_draws_the_same_picture(tmp_path: Path) -> None:
@@ -131,15 +150,19 @@ def test_morph_targets_are_the_frames(tmp_path: Path) -> None:
     save_model(iter(SCENES), tmp_path / "a.glb", fps=10)
     tree, binary = glb(tmp_path / "a.glb")
     moving = [mesh for mesh in tree["meshes"] if "weights" in mesh]
-    assert [mesh["name"] for mesh in moving] == ["model_0", "model_0_cutout"]
+    assert [mesh["name"] for mesh in moving] == ["part_0", "part_0_cutout"]
+    assert "KHR_mesh_quantization" in tree["extensionsRequired"]
     for mesh, member in zip(moving, (0, 1), strict=True):
         (primitive,) = mesh["primitives"]
         base = values(tree, binary, primitive["attributes"]["POSITION"])
         assert len(mesh["weights"]) == len(primitive["targets"]) == len(SCENES) - 1
         for scene, target in zip(SCENES[1:], primitive["targets"], strict=True):
-            moved = base + values(tree, binary, target["POSITION"])
+            moved = base + 2 * values(tree, binary, target["POSITION"])
             wanted = scene.models[0].mesh.positions[member]
-            assert np.abs(moved - wanted).max() < 1e-6
+            assert np.abs(moved - wanted).max() < 1 / 32767
+            normals = values(tree, binary, primitive["attributes"]["NORMAL"])
+            turned = normals + 2 * values(tree, binary, target["NORMAL"])
+            assert np.abs(turned - scene.models[0].mesh.normals[member]).max() < 0.6 / 63
 
 
 def test_the_animation_shows_one_frame_at_a_time_and_loops(tmp_path: Path) -> None:
@@ -151,9 +174,88 @@ def test_the_animation_shows_one_frame_at_a_time_and_loops(tmp_path: Path) -> No
     weights = values(tree, binary, sampler["output"]).reshape(len(times), -1)
     assert np.allclose(times, np.arange(6) / 10)
     assert not weights[0].any() and not weights[-1].any()
-    assert np.array_equal(weights[1:-1], np.eye(4))
+    assert np.array_equal(weights[1:-1], 2 * np.eye(4))
+    assert animation["name"] == "wave"
+    assert animation["extras"]["keyPoseError"] == 0
     nodes = [channel["target"]["node"] for channel in animation["channels"]]
     assert all("weights" in tree["meshes"][tree["nodes"][node]["mesh"]] for node in nodes)
+
+
+def waving(count: int, waves: float) -> list[Scene]:
+    """A sheet that bends to and fro."""
+    bends = np.sin(2 * np.pi * waves * np.arange(count) / count)
+    return [replace(SCENES[0], models=(Model(sheet(0.3 * b), LOOKS[:1]),)) for b in bends]
+
+
+def test_frames_on_a_line_are_left_out_at_a_stated_error(tmp_path: Path) -> None:
+    frames = waving(400, 2)
+    save_model(frames, tmp_path / "a.glb", fps=100)
+    tree, binary = glb(tmp_path / "a.glb")
+    (animation,), (mesh,) = tree["animations"], tree["meshes"]
+    times = values(tree, binary, animation["samplers"][0]["input"])[:, 0]
+    assert 30 < len(mesh["weights"]) < 100 and len(times) == len(mesh["weights"]) + 2
+    base = frames[0].models[0].mesh.positions
+    targets = mesh["primitives"][0]["targets"]
+    moved = [base + 2 * values(tree, binary, target["POSITION"]) for target in targets]
+    shown = np.array([base, *moved, base])
+    error = max(
+        np.abs(
+            np.stack(
+                [
+                    np.interp(number / 100, times, shown[:, vertex, axis])
+                    for vertex in range(len(base))
+                    for axis in range(3)
+                ]
+            ).reshape(-1, 3)
+            - frame.models[0].mesh.positions
+        ).max()
+        for number, frame in enumerate(frames)
+    )
+    stated = animation["extras"]["keyPoseError"]
+    assert stated <= 0.001 and stated / 2 < error < stated + 1 / 32767
+
+
+def test_a_loop_of_too_many_poses_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(OptionError, match=r"takes 281 poses, and a GLB has .* use seconds 25.6"):
+        save_model(waving(300, 140), tmp_path / "a.glb", fps=10)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_weights_do_not_grow_with_the_square_of_the_targets(tmp_path: Path) -> None:
+    sizes = []
+    for count in (60, 120, 240):
+        save_model(waving(count, count // 3), tmp_path / "a.glb", fps=20)
+        sizes.append((tmp_path / "a.glb").stat().st_size)
+    assert sizes[2] - sizes[1] < 2.1 * (sizes[1] - sizes[0])
+
+
+def test_only_a_closed_opaque_mesh_is_single_sided_and_names_are_kept(tmp_path: Path) -> None:
+    box = box_mesh(ModelBox((-1, -1, -1), (2, 2, 2), (0, 0)))
+    inside_out = replace(box, triangles=np.ascontiguousarray(box.triangles[:, ::-1]))
+    models = (
+        Model(box, LOOKS[:1], name="box"),
+        Model(box, LOOKS[1:2], name="box"),
+        Model(inside_out, LOOKS[:1]),
+        Model(sheet(0.2), LOOKS[:1], name="sheet"),
+    )
+    save_model(replace(SCENES[0], models=models), tmp_path / "a.glb")
+    tree, _ = glb(tmp_path / "a.glb")
+    both = {each["name"]: each["doubleSided"] for each in tree["materials"]}
+    assert both == {"box": False, "box_cutout": True, "part_2": True, "sheet": True}
+    assert [each["name"] for each in tree["meshes"]] == list(both)
+    assert (tree["images"][0]["name"], tree["textures"][0]["name"]) == ("texture", "texture")
+
+
+def test_the_origin_is_moved_with_the_camera(tmp_path: Path) -> None:
+    save_model(SCENES, tmp_path / "a.glb")
+    save_model(SCENES, tmp_path / "b.glb", origin=(0.5, 0.0, 0.5))
+    bounds = [trimesh.load_scene(tmp_path / f"{name}.glb").bounds for name in "ab"]
+    assert np.allclose(bounds[0] - bounds[1], [0.5, 0, 0.5], atol=1e-6)
+    poses = []
+    for name in "ab":
+        nodes = glb(tmp_path / f"{name}.glb")[0]["nodes"]
+        poses += [np.array(node["matrix"]).reshape(4, 4) for node in nodes if "camera" in node]
+    assert np.allclose(poses[0][3, :3] - poses[1][3, :3], [0.5, 0, 0.5])
 
 
 def test_pixel_art_is_not_blurred_and_the_camera_is_ours(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 """`drapery model`: the cloth as a 3-D file, still or waving."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -17,6 +17,10 @@ OutOption = Annotated[
         help=f"The 3-D file: {', '.join(endings_of('model'))}; only GLB waves.",
     ),
 ]
+OriginOption = Annotated[
+    Literal["corner", "centre"],
+    typer.Option(help="The file's origin: a corner of the block, or the middle of its floor."),
+]
 
 
 @o.pictured("model")
@@ -24,6 +28,7 @@ def run(
     out: OutOption,
     seconds: Annotated[float, typer.Option(help="Length of the loop; 0 for one pose.")] = 4.0,
     fps: o.FpsOption = 20.0,
+    origin: OriginOption = "corner",
     **words: Any,
 ) -> None:
     """Write a banner, shield, cape or elytra as a 3-D file: a waving GLB, or one pose."""
@@ -31,4 +36,4 @@ def run(
 
     settings = o.settings_of(words)
     with compile_notice():
-        save_model(o.design_of(words), out, settings, seconds=seconds, fps=fps)
+        save_model(o.design_of(words), out, settings, seconds=seconds, fps=fps, origin=origin)

@@ -97,7 +97,7 @@ class SewnCloth:
             thin = None
             if piece.shell.grid is not None and len(self.pieces) == 1:
                 thin = Sheet(sheet, piece.shell, self.thickness, self.texel, piece.size)
-            found.append(ClothModel(thick, (piece.material,), None, thin))
+            found.append(ClothModel(thick, (piece.material,), None, thin, name=piece.name))
         return found
 
 

@@ -194,7 +194,11 @@ class StagedBody:
         shown, style = body or self.body, self.staging.style
         materials = [part.material_at(time) for part in shown.parts]
         materials += [style.material(panel.material_at(time)) for panel in shown.panels]
-        return [Model(mesh, (made,)) for mesh, made in zip(meshes, materials, strict=True)]
+        names = [part.name for part in shown.parts] + [panel.name for panel in shown.panels]
+        return [
+            Model(mesh, (made,), name=name)
+            for mesh, made, name in zip(meshes, materials, names, strict=True)
+        ]
 
     def moved(self, motions: Sequence[Array]) -> list[Array]:
         """The motion of each panel after the style's steps. motions: [m], each [F, N, 3]."""

@@ -56,7 +56,7 @@ class Wearer:
         """The figure at a time [s], at the origin. bones: those that are drawn; None for all."""
         poses = self.poses(time)
         held = (
-            rigged_model(self._held[number], poses, each.material)
+            rigged_model(self._held[number], poses, each.material, f"held/{each.bone}")
             for number, each in enumerate(self.equipment)
             if bones is None or each.bone in bones
         )
@@ -118,7 +118,7 @@ def wearer_of(garment: Garment, packs: Packs, period: float | None = None) -> We
     rig = cache(skin.rig)
 
     def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
-        return (rigged_model(rig(bones), poses, material),)
+        return (rigged_model(rig(bones), poses, material, "player"),)
 
     armor = {} if who.armor is None else armor_growth(who.armor)
     return Wearer(skin.parts, poses, draw, _equipment(who, packs, skin.parts), skin.growth, armor)
@@ -184,6 +184,8 @@ def _horse(packs: Packs) -> Draw:
         return {dye: make_rig(parts, HORSE_PARTS) for dye, parts in shown.items() if parts}
 
     def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
-        return tuple(rigged_model(rig, poses, materials[dye]) for dye, rig in rigs(bones).items())
+        return tuple(
+            rigged_model(rig, poses, materials[dye], "horse") for dye, rig in rigs(bones).items()
+        )
 
     return draw

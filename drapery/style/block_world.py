@@ -48,7 +48,11 @@ def blocks(cells: Cells, packs: Packs) -> tuple[Model, ...]:
                 sides = by_texture.setdefault(_texture(kind, normal[1]), [])
                 sides.append((quad, np.tile(np.array(normal, float), (4, 1))))
     return tuple(
-        Model(_quads(sides), (Material((TextureLayer(packs.texture(f"block/{texture}"), tint),)),))
+        Model(
+            _quads(sides),
+            (Material((TextureLayer(packs.texture(f"block/{texture}"), tint),)),),
+            name=f"block/{texture}",
+        )
         for (texture, tint), sides in sorted(by_texture.items())
     )
 

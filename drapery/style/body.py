@@ -17,10 +17,14 @@ MaterialAt = Callable[[float], Material]
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A stiff piece of a body. mesh: [m]. material_at: its material at a time [s]."""
+    """A stiff piece of a body. mesh: [m]. material_at: its material at a time [s].
+
+    name: in 3-D files, such as `banner/pole`.
+    """
 
     mesh: Mesh
     material_at: MaterialAt
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,7 @@ class Panel:
     sway: the period of that sway [s]; None where it does not move in the game.
     material_at: its material at a time [s].
     fullness: how much wider its cloth is than its top edge, on which it is gathered.
+    name: in 3-D files, such as `banner/cloth`.
     """
 
     size: tuple[float, float]
@@ -63,6 +68,7 @@ class Panel:
     sway: float | None
     material_at: MaterialAt
     fullness: float = 0.0
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)

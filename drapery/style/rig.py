@@ -20,8 +20,10 @@ def make_rig(parts: Sequence[tuple[str, Mesh]], figure: Mapping[str, FigurePart]
     return Rig(bones, joints, member, join([mesh for _, mesh in parts]))
 
 
-def rigged_model(rig: Rig, poses: Mapping[str, Placed], material: Material) -> RiggedModel:
-    """The rig in poses of its bones."""
+def rigged_model(
+    rig: Rig, poses: Mapping[str, Placed], material: Material, name: str = ""
+) -> RiggedModel:
+    """The rig in poses of its bones. name: of the model."""
     placed = [poses[bone] for bone in rig.bones]
     places, rotations = (np.array([pose[part] for pose in placed]) for part in (0, 1))
     rest, turns = rig.rest, rotations[rig.member]
@@ -29,7 +31,7 @@ def rigged_model(rig: Rig, poses: Mapping[str, Placed], material: Material) -> R
     positions = np.einsum("vij,vj->vi", turns, rest.positions) + places[rig.member]
     normals = np.einsum("vij,vj->vi", turns, rest.normals)
     mesh = Mesh(positions, normals, rest.triangles, rest.uvs)
-    return RiggedModel(mesh, (material,), rig=rig, places=places, rotations=rotations)
+    return RiggedModel(mesh, (material,), rig=rig, places=places, rotations=rotations, name=name)
 
 
 def moved_rig(model: RiggedModel, mesh: Mesh, rotation: Array, place: Array) -> RiggedModel:

@@ -53,7 +53,7 @@ def post(foot: Array, height: float, packs: Packs, half: float = 0.06) -> Model:
     standing = upright(pole, 1.0, (0, 0, 0))
     scale = np.array([half, height / 42, half])
     mesh = replace(standing, positions=standing.positions * scale + foot)
-    return Model(mesh, (wood_material(packs),))
+    return Model(mesh, (wood_material(packs),), name="pole")
 
 
 def pole(start: Array, end: Array, packs: Packs, half: float = 0.06) -> Model:

@@ -2,32 +2,69 @@
 
 from collections.abc import Iterable
 from contextlib import ExitStack
+from dataclasses import replace
 from itertools import chain, islice
 from pathlib import Path
 
+import numpy as np
+
 from drapery.errors import OptionError
+from drapery.mesh import Array
+from drapery.render.camera import Vector
 from drapery.render.encode import check_fps, check_target, writer_of
 from drapery.render.encode.output import replacing
 from drapery.render.export.parts import take_apart
-from drapery.render.scene import Scene
+from drapery.render.scene import Model, RiggedModel, Scene
 
 
-def save_model(scenes: Scene | Iterable[Scene], path: str | Path, *, fps: float = 20.0) -> None:
+def save_model(
+    scenes: Scene | Iterable[Scene],
+    path: str | Path,
+    *,
+    fps: float = 20.0,
+    origin: Vector = (0.0, 0.0, 0.0),
+) -> None:
     """Write a scene, or the scenes of a loop, as a 3-D file.
 
-    fps: frames/s of a loop. Raises OptionError for an unknown ending and for scenes with different
-    meshes, OutputError for a bad target; no partial file remains.
+    fps: frames/s of a loop. origin: the place in the scene that is the file's origin [m].
+    Raises OptionError for an unknown ending, for scenes with different meshes and for a loop of
+    more poses than the format has, OutputError for a bad target; no partial file remains.
     """
     path = Path(path)
     format = check_target(path, "model")
     check_fps(fps, format)
-    moments = iter([scenes] if isinstance(scenes, Scene) else scenes)
+    given = [scenes] if isinstance(scenes, Scene) else scenes
+    moments = (_shifted(scene, origin) for scene in given)
     first = next(moments, None)
     if first is None:
         raise OptionError("there is no scene to write")
     # The later scenes of a loop are made only for a format that holds motion.
     parts = take_apart(chain([first], moments if format.moving else islice(moments, 0)))
     _write(path, writer_of(format)(parts, first, fps, path.name[: -len(format.ending)]))
+
+
+def _shifted(scene: Scene, origin: Vector) -> Scene:
+    """The scene with another place at its origin."""
+    if not any(origin):
+        return scene
+    camera, by = scene.camera, -np.asarray(origin)
+    x, y, z = origin
+
+    def less(place: Vector) -> Vector:
+        return place[0] - x, place[1] - y, place[2] - z
+
+    return replace(
+        scene,
+        models=tuple(_shifted_model(model, by) for model in scene.models),
+        camera=replace(camera, position=less(camera.position), target=less(camera.target)),
+    )
+
+
+def _shifted_model(model: Model, by: Array) -> Model:
+    mesh = replace(model.mesh, positions=model.mesh.positions + by)
+    if isinstance(model, RiggedModel):
+        return replace(model, mesh=mesh, places=model.places + by)
+    return replace(model, mesh=mesh)
 
 
 def _write(path: Path, files: dict[str, bytes]) -> None:

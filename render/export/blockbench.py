@@ -73,7 +73,7 @@ def _bedrock_text(parts: MeshParts, name: str) -> str:
         "visible_bounds_offset": [0, _rounded((low[1] + high[1]) / 2), 0],
     }
     bones = [
-        {"name": part.name, "pivot": [0, 0, 0], "poly_mesh": _poly_mesh(part)}
+        {"name": part.name.replace("/", "_"), "pivot": [0, 0, 0], "poly_mesh": _poly_mesh(part)}
         for part in parts.parts
     ]
     geometry = {"description": description, "bones": bones}

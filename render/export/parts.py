@@ -26,6 +26,7 @@ class MeshPart:
 
     positions, normals: [m], shape [F, V, 3]; F is 1 if the part does not move.
     triangles: shape [T, 3]. uvs: fractions of the atlas, v downwards, shape [V, 2].
+    closed: whether it has an inside, so that nobody sees the back of a triangle.
     skin: the bones that move it; None for meshes without bones.
     """
 
@@ -36,6 +37,7 @@ class MeshPart:
     uvs: Float32
     alpha: Alpha
     lit: bool
+    closed: bool = False
     skin: "MeshSkin | None" = None
 
 
@@ -74,7 +76,9 @@ def take_apart(scenes: Iterable[Scene]) -> MeshParts:
     first: DrawList | None = None
     positions, normals = [], []
     rigged: dict[int, list[RiggedModel]] = {}
+    names: list[str] = []
     for number, scene in enumerate(scenes):
+        names = names or [model.name for model in scene.models]
         for place, model in enumerate(scene.models):
             if isinstance(model, RiggedModel):
                 rigged.setdefault(place, []).append(model)
@@ -94,7 +98,7 @@ def take_apart(scenes: Iterable[Scene]) -> MeshParts:
     moments = np.stack(positions), np.stack(normals)
     if not all(np.isfinite(values).all() for values in moments):
         raise OptionError("the meshes have positions or normals that are not finite numbers")
-    return _parts(first.topology, *moments, rigged)
+    return _parts(first.topology, *moments, rigged, names)
 
 
 def _same(one: Topology, other: Topology) -> bool:
@@ -109,6 +113,7 @@ def _parts(
     positions: Float32,
     normals: Float32,
     rigged: Mapping[int, Sequence[RiggedModel]],
+    names: Sequence[str],
 ) -> MeshParts:
     material_tables = composite_layers(topology.material_tables)
     if (material_tables.material_layers[:, 1] > 1).any():
@@ -117,7 +122,7 @@ def _parts(
             " another, or are too many; draw them as one texture"
         )
     uvs = _atlas_uvs(topology, material_tables)
-    parts = []
+    parts: list[MeshPart] = []
     for number, (start, end) in enumerate(_spans(topology.vertex_start)):
         inside = (topology.triangles[:, 0] >= start) & (topology.triangles[:, 0] < end)
         for alpha, code in ALPHA_CODES.items():
@@ -127,7 +132,7 @@ def _parts(
                 )
                 chosen = topology.triangles[inside & alike[topology.triangle_material]]
                 if len(chosen):
-                    name = _name(number, alpha, lit)
+                    name = _name(names[number], number, alpha, lit, [each.name for each in parts])
                     part = _part(name, positions, normals, chosen, uvs, alpha, lit)
                     if number in rigged:
                         used = np.unique(chosen) - start
@@ -150,8 +155,26 @@ def _skin(models: Sequence[RiggedModel], used: NDArray[np.int64]) -> MeshSkin:
     )
 
 
-def _name(number: int, alpha: Alpha, lit: bool) -> str:
-    return f"model_{number}" + f"_{alpha}" * (alpha != "opaque") + "_unlit" * (not lit)
+def _name(given: str, number: int, alpha: Alpha, lit: bool, taken: Sequence[str]) -> str:
+    """The model's name, or one by its number, with what tells its part from those before it."""
+    name = given or f"part_{number}"
+    for ending in (f"_{alpha}", "_lit" if lit else "_unlit", f"_{number}"):
+        if name in taken:
+            name += ending
+    return name
+
+
+def _is_closed(positions: Float32, triangles: Triangles) -> bool:
+    """Whether each edge has a triangle on either side, and they face outwards.
+
+    positions: [m], shape [V, 3]; vertices in the same place are one.
+    """
+    places, vertex = np.unique(positions, axis=0, return_inverse=True)
+    corners = vertex.ravel()[triangles]
+    start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+    there, back = np.sort(start * len(places) + end), np.sort(end * len(places) + start)
+    a, b, c = np.moveaxis((positions - positions.mean(axis=0))[triangles].astype(float), 1, 0)
+    return bool(np.array_equal(there, back) and (a * np.cross(b, c)).sum() > 0)
 
 
 def _spans(starts: NDArray[np.int64]) -> Sequence[tuple[int, int]]:
@@ -173,7 +196,8 @@ def _part(
     if (moving == moving[:1]).all() and (turning == turning[:1]).all():
         moving, turning = moving[:1], turning[:1]
     own = numbers.reshape(triangles.shape).astype(np.int32)
-    return MeshPart(name, moving, turning, own, uvs[used], alpha, lit)
+    closed = _is_closed(positions[0, used], own)
+    return MeshPart(name, moving, turning, own, uvs[used], alpha, lit, closed)
 
 
 def _atlas_uvs(topology: Topology, material_tables: MaterialTables) -> Float32:

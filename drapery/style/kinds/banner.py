@@ -43,8 +43,9 @@ def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placemen
         SWAY_PERIOD,
         flag_material_at(banner, packs, settings),
         FULLNESS,
+        "banner/cloth",
     )
-    frame = Part(wood(placement), wood_material_at(packs, settings))
+    frame = Part(wood(placement), wood_material_at(packs, settings), "banner/pole")
     period = textures_period(banner, packs, "banner")
     return Body((frame,), (flag,), period, solids=solids(placement))
 
@@ -53,8 +54,14 @@ def _item(banner: Banner, packs: Packs, settings: Settings) -> Body:
     """The item in the inventory: stiff, at phase 0 of its sway."""
     flag = stiff_flag("standing", 0.0, settings.thickness)
     parts = (
-        Part(in_slot(wood("standing"), BANNER_POSE), wood_material_at(packs, settings)),
-        Part(in_slot(flag, BANNER_POSE), flag_material_at(banner, packs, settings)),
+        Part(
+            *(in_slot(wood("standing"), BANNER_POSE), wood_material_at(packs, settings)),
+            "banner/pole",
+        ),
+        Part(
+            *(in_slot(flag, BANNER_POSE), flag_material_at(banner, packs, settings)),
+            "banner/cloth",
+        ),
     )
     period = textures_period(banner, packs, "banner")
     return Body(parts, (), period, SLOT_LIGHT, slot_camera(settings.size))

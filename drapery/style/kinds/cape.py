@@ -31,6 +31,7 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
         lambda phase, thickness: _stiff(thickness),
         None,
         lambda time: material,
+        name="cape/cloth",
     )
     return Body((), (cape,), solids=_wearer())
 

@@ -29,7 +29,8 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """Both wings, cut out by their texture. Raises OptionError or PackError."""
     material = Material((TextureLayer(back_texture(settings, packs, _WING_MAPPING)),), "cutout")
     left = _left_wing()
-    return Body(tuple(Part(wing, lambda time: material) for wing in (left, _mirrored(left))))
+    wings = {"elytra/left": left, "elytra/right": _mirrored(left)}
+    return Body(tuple(Part(wing, lambda time: material, name) for name, wing in wings.items()))
 
 
 def _left_wing() -> Mesh:

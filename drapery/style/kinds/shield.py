@@ -17,6 +17,8 @@ HANDLE = ModelBox((-1, -3, -1), (2, 6, 6), (26, 0))
 _STANDING = (0.5, 11 * TEXEL, 0.5)
 """Place of the model's origin when the shield stands on the floor [m]."""
 
+NAMES = ("shield/plate", "shield/handle")
+
 
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """The shield, its plate towards the viewer. design: None is a shield without one.
@@ -32,10 +34,10 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
         plate, handle = (
             in_slot(_upright_at(box, (0, 0, 0)), SHIELD_POSE) for box in (PLATE, HANDLE)
         )
-        parts = tuple(map(Part, (plate, handle), materials))
+        parts = tuple(map(Part, (plate, handle), materials, NAMES))
         return Body(parts, (), period, SLOT_LIGHT, slot_camera(settings.size))
     plate, handle = (_upright_at(box, _STANDING) for box in (PLATE, HANDLE))
-    return Body(tuple(map(Part, (plate, handle), materials)), (), period)
+    return Body(tuple(map(Part, (plate, handle), materials, NAMES)), (), period)
 
 
 def _upright_at(box: ModelBox, origin: tuple[float, float, float]) -> Mesh:
