@@ -465,3 +465,16 @@ def test_fraction_rates_are_exact_in_apng(tmp_path: Path) -> None:
     start = data.index(b"fcTL") + 4 + 20
     delay = Fraction(*(int.from_bytes(data[start + i : start + i + 2]) for i in (0, 2)))
     assert delay == Fraction(1, 30)
+
+
+def test_png_files_say_that_their_colours_are_srgb(tmp_path: Path) -> None:
+    save_frame(noise()[0], tmp_path / "a.png")
+    save_animation(noise(), 10, tmp_path / "a.apng")
+    for name in ("a.png", "a.apng"):
+        assert (tmp_path / name).read_bytes()[33:46] == b"\0\0\0\1sRGB\0\xae\xce\x1c\xe9"
+
+
+def test_the_index_of_an_mp4_comes_first(tmp_path: Path) -> None:
+    save_animation(noise(), 10, tmp_path / "a.mp4")
+    data = (tmp_path / "a.mp4").read_bytes()
+    assert data.index(b"moov") < data.index(b"mdat")

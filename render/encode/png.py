@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
 from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import FramePatch, changed_patch, with_previous
@@ -21,15 +22,21 @@ from drapery.render.pixels import HasPixels, Pixels
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte
 
-STILL_LEVEL = 6
-FRAME_LEVEL = 3  # two thirds of the time of level 6, for a file that is half as big again
+LEVEL = 6
+SMALLEST = 9
+"""The level of stills in files: 5 to 8 % smaller, for 0.1 s more at 512 x 512 pixels."""
+SRGB = b"sRGB", b"\0"
+"""The chunk that says that colours are sRGB, to be shown as pictures mostly are (perceptual)."""
 
 
-def png_bytes(pixels: Pixels, level: int = STILL_LEVEL) -> bytes:
-    """A PNG file; the same pixels and level give the same bytes."""
+def png_bytes(pixels: Pixels, level: int = LEVEL, *, srgb: bool = False) -> bytes:
+    """A PNG file; the same pixels and level give the same bytes. srgb: whether it says so."""
+    info = PngInfo()
+    if srgb:
+        info.add(*SRGB)
     file = BytesIO()
     file.name = "pixels.png"  # given a format, newer Pillow would import five
-    Image.fromarray(pixels).save(file, compress_level=level)
+    Image.fromarray(pixels).save(file, compress_level=level, pnginfo=info)
     return file.getvalue()
 
 
@@ -39,7 +46,7 @@ def write_png(
     """A still, or an animation that loops forever."""
     with path.open("wb") as file:
         if fps is None:
-            file.writelines(png_bytes(frame.pixels) for frame in frames)
+            file.writelines(png_bytes(frame.pixels, SMALLEST, srgb=True) for frame in frames)
         else:
             _write_loop(file, frames, fps)
 
@@ -75,6 +82,7 @@ def _write_loop(
         chunks = dict(_joined_chunks(png))
         if count == 0:
             file.write(SIGNATURE + png_chunk(b"IHDR", chunks[b"IHDR"]))
+            file.write(png_chunk(*SRGB))
             start = file.tell()
             file.write(png_chunk(b"acTL", bytes(8)))
         delay = Fraction(delays[count]) if delays else 1 / Fraction(fps)
@@ -92,7 +100,7 @@ def _write_loop(
 
 def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[FramePatch, bytes]:
     patch = changed_patch(*pair)
-    return patch, png_bytes(patch.pixels, FRAME_LEVEL)
+    return patch, png_bytes(patch.pixels)
 
 
 def _frame_control(sequence: int, patch: FramePatch, seconds: Fraction) -> bytes:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from drapery.errors import OutputError
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.output import check_writable, explained, partial_path
-from drapery.render.encode.png import FRAME_LEVEL, png_bytes
+from drapery.render.encode.png import png_bytes
 from drapery.render.pixels import HasPixels
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def check_folder(folder: Path) -> None:
 
 
 def _gather(gathering: Path, frames: Iterable[HasPixels]) -> None:
-    files = encode_ahead(frames, lambda frame: png_bytes(frame.pixels, FRAME_LEVEL))
+    files = encode_ahead(frames, lambda frame: png_bytes(frame.pixels))
     for number, png in enumerate(files):
         path = gathering / f"frame_{number:04d}.png"
         unfinished = path.with_suffix(".part")

@@ -18,6 +18,11 @@ WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1
 # A fixed number of threads, since the output of the encoders depends on it.
 X264 = {"crf": "14", "preset": "medium", "tune": "animation"}
+MUXERS = {
+    # The index of an MP4 comes first, so that a page can play it before it has all of it.
+    "mp4": {"fflags": "+bitexact", "movflags": "+faststart"},
+    "webm": {"fflags": "+bitexact"},
+}
 VP9 = {"crf": "16", "b": "0", "deadline": "good", "cpu-used": "4"}
 
 
@@ -53,7 +58,7 @@ def _write_video(
     first, frames = _peek(frames)
     alpha = matte is None and bool((first.pixels[..., 3] < 255).any())
     try:
-        with av.open(str(path), "w", format=muxer, options={"fflags": "+bitexact"}) as container:
+        with av.open(str(path), "w", format=muxer, options=MUXERS[muxer]) as container:
             stream = container.add_stream(codec, Fraction(fps).limit_denominator(1001), options)
             _describe(stream, first.pixels, "yuva420p" if alpha else "yuv420p")
             convert = partial(_video_frame, av, stream.pix_fmt, None if alpha else matte or WHITE)

@@ -30,9 +30,7 @@ def webp_bytes(pixels: Pixels, method: int = 4) -> bytes:
     method: 0 (fast) to 6 (small).
     """
     file = BytesIO()
-    Image.fromarray(pixels).save(
-        file, "WEBP", lossless=True, exact=True, method=method, quality=75 if method else 20
-    )
+    Image.fromarray(pixels).save(file, "WEBP", lossless=True, exact=True, method=method, quality=75)
     return file.getvalue()
 
 
@@ -64,7 +62,7 @@ def _write_loop(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None
 
 def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[FramePatch, bytes]:
     patch = changed_patch(*pair, grid=2)  # the format counts offsets in steps of two pixels
-    return patch, webp_bytes(patch.pixels, method=0)
+    return patch, webp_bytes(patch.pixels, method=2)
 
 
 def _frame_header(patch: FramePatch, milliseconds: int) -> bytes:
