@@ -122,7 +122,8 @@ class _Compilations(_event.Listener):  # type: ignore[misc]
         _open.append(function)
 
     def on_end(self, event: Any) -> None:
-        _open.pop()
+        if _open:  # a user's function may have begun before this listener did
+            _open.pop()
         if not _open and self.collected:
             self.collected = False
             gc.enable()
