@@ -63,6 +63,9 @@ shorter than so many cells of the grid; but none is made stiffer than wool."""
 LEE = 0.4
 """Behind a wall the wind across it keeps this part of its speed. Backflow behind a step reaches
 over 20 % of the free flow: Eaton, Johnston, AIAA J. 19 (1981)."""
+LEAST_GUSTS, ALONG = 1e-3, 1e-6
+"""The least gusts of a wind that runs along flat cloth, and the part of it across the cloth up to
+which it does: steady, it would leave the cloth perfectly flat at any speed."""
 MAX_CACHED = 16 << 20
 """A recorded motion is cached up to this size [bytes]."""
 
@@ -361,9 +364,10 @@ def wind_of(settings: Settings, period: float | None = None) -> Wind:
     given, gusts = settings.wind, settings.gusts
     if isinstance(given, Wind):
         return given if period is None else replace(given, period=period)
+    x, y, z = flow(given, settings.direction)
     return Wind(
-        flow(given, settings.direction),
-        gusts=gusts,
+        (x, y, z),
+        gusts=max(gusts, LEAST_GUSTS if abs(z) < ALONG * given else 0.0),
         seed=settings.seed,
         period=period,
         ripples=RIPPLES * gusts * _ripple_share(settings.fabric),
