@@ -1,21 +1,40 @@
 """No allowed setting draws cloth with edges over their limit; see `drapery.cloth.strain`."""
 
+from itertools import islice
+
 import numpy as np
 import pytest
+import trimesh
 
 from drapery import Banner, Settings
 from drapery.cloth import (
+    Capsule,
+    Collider,
+    Collisions,
     Gravity,
+    MovingCloth,
     SolverDesbrun,
+    SolverXPBD,
+    Sphere,
     State,
     Wind,
     grid,
     max_stretch,
+    mesh_collider,
     rest_state,
     simulate,
+    straight,
 )
+from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.solvers.registry import SOLVERS, solver
-from drapery.cloth.strain import MOST_STRETCH, NEVER, allowed_stretch, limit_strain, strain_limit
+from drapery.cloth.strain import (
+    HELD_TO,
+    MOST_STRETCH,
+    NEVER,
+    allowed_stretch,
+    limit_strain,
+    strain_limit,
+)
 from drapery.packs import open_packs
 from drapery.scenes import LiveBody
 from drapery.style import body_of
@@ -102,3 +121,54 @@ def test_pins_that_move_apart_are_told():
         strain = next(states).strain
     assert strain > 0.2
     assert next(states).strain > strain  # without a second warning
+
+
+def ball_of_triangles():
+    ball = trimesh.creation.icosphere(subdivisions=1, radius=0.25)
+    return mesh_collider(ball.vertices + np.array([0.0, -1.0, -0.6]), ball.faces)
+
+
+SHAPES = {
+    "sphere": Sphere(np.array([0.0, -1.0, -0.6]), 0.25),
+    "capsule": Capsule(np.array([-0.6, -1.0, -0.5]), np.array([0.6, -1.0, -0.5]), radius=0.12),
+    "mesh": ball_of_triangles(),
+}
+
+
+@pytest.mark.parametrize("method", [SolverXPBD(), SolverDesbrun()], ids=lambda m: type(m).__name__)
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_fast_body_passes_under_the_cloth_and_does_not_stretch_it(name, method):
+    body, cloth = Collider(SHAPES[name], straight((0.0, 0.0, 4.0))), grid(11, 17, 0.9, 1.5)
+    moving = MovingCloth.begin(cloth, method, collisions=Collisions((body,), thickness=0.02))
+    farthest = 0.0
+    for _ in range(24):
+        moving = moving.advance((Gravity(),))
+        places = moving.state.positions[0].astype(float)
+        assert 1 + max_stretch(places, cloth) <= MOST_STRETCH * (1 + HELD_TO)
+        local = np.ascontiguousarray(places - body.path(moving.state.time).position)
+        assert sample_distances(body.packed, local).min() > 0.0095, "it keeps half its thickness"
+        farthest = max(farthest, places[:, 2].max())
+    assert moving.state.strain == 0.0
+    assert farthest > 0.3, "the body took the cloth with it"
+
+
+def test_a_body_that_is_driven_through_pinned_cloth_is_told_once():
+    body = Collider(Sphere(np.array([0.0, 0.0, -0.4]), 0.2), straight((0.0, 0.0, 3.0)))
+    states = simulate(grid(7, 9, 0.9, 1.5), collisions=Collisions((body,)), every=6)
+    with pytest.warns(UserWarning, match="pins or colliders pull cloth 0 apart") as told:
+        *_, last = islice(states, 4)
+    assert len(told) == 1
+    assert last.strain > 1.0
+
+
+FLAT = [{"solver": "xpbd"}, {"solver": "xpbd", "placement": "wall"}, {"solver": "pbd"}]
+
+
+@pytest.mark.parametrize("options", FLAT, ids=str)
+def test_wind_exactly_along_the_cloth_does_not_leave_it_flat(options):
+    settings = Settings(wind=40.0, gusts=0.0, direction=90.0, **SMALL, **options)
+    live = LiveBody(body_of(Banner.parse("white"), open_packs(()), settings), settings)
+    live.advance(120)
+    places = live.cloths[0].state.positions[0]
+    across = np.linalg.svd(places - places.mean(axis=0), full_matrices=False)[1][2]
+    assert across / np.sqrt(len(places)) > 0.01, "rms distance from the plane that fits best"

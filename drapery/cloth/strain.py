@@ -53,20 +53,28 @@ LEEWAY = 0.01
 class StrainLimit(NamedTuple):
     """The longest structural springs of a cloth, in the order of sweeps.
 
-    pairs: their ends, [S, 2]. longest: [m], [S]. shares: the parts of a correction that the ends
-    take, by inverse mass; pinned ones take none, [S, 2]. follow: the same where the end that is
-    farther from the pins takes all, [S, 2]. inv_mass: of the particles [1/kg], [N].
+    pairs: their ends, [S, 2]. longest: [m], [S]. squares: of these, [S].
+    shares: the parts of a correction that the ends take, by inverse mass; pinned ones take none,
+        [S, 2].
+    follow: the same where the end that is farther from the pins takes all, [S, 2].
+    inv_mass: of the particles [1/kg], [N].
     """
 
     pairs: NDArray[np.int32]
     longest: Array
+    squares: Array
     shares: Array
     follow: Array
     inv_mass: Array
 
 
 NEVER = StrainLimit(
-    np.zeros((0, 2), np.int32), np.zeros(0), np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0)
+    np.zeros((0, 2), np.int32),
+    np.zeros(0),
+    np.zeros(0),
+    np.zeros((0, 2)),
+    np.zeros((0, 2)),
+    np.zeros(0),
 )
 """The limit of cloth that may stretch at will."""
 
@@ -81,8 +89,8 @@ def strain_limit(cloth: Cloth, stretch: float) -> StrainLimit:
     inv_mass = np.array(cloth.inv_mass, float)
     weights = inv_mass[pairs]
     shares = weights / np.maximum(weights.sum(axis=1, keepdims=True), 1e-300)
-    longest = stretch * cloth.spring_length[springs]
-    return StrainLimit(pairs, longest, shares, _followed(cloth, pairs, shares), inv_mass)
+    longest, follow = stretch * cloth.spring_length[springs], _followed(cloth, pairs, shares)
+    return StrainLimit(pairs, longest, longest**2, shares, follow, inv_mass)
 
 
 def _followed(cloth: Cloth, pairs: NDArray[np.int32], shares: Array) -> Array:
@@ -106,18 +114,18 @@ def plane_squares(sheet: SheetLayout, limit: StrainLimit) -> Array:
     first, second = limit.pairs.T
     lanes = first // sheet.columns * sheet.width + first % sheet.columns
     down = second - first == sheet.columns
-    squares[down.astype(int), lanes] = limit.longest**2
+    squares[down.astype(int), lanes] = limit.squares
     return squares
 
 
 @kernel
-def excess_of_lanes(out: Any, y: Any, limit: Any, lane: Any) -> None:
+def excess_of_lanes(out: Any, y: Any, pairs: Any, squares: Any, lane: Any) -> None:
     """For each lane of a register of y [3N, L], the largest square of a spring's length less that
-    of its longest one [m²], if that is above 0, into out [1, lanes]."""
+    of its longest one [m²], if that is above 0, into out [1, lanes]. squares: of these, [1, S]."""
     most = fill(y.dtype.type(0))
-    for s in range(limit.longest.size):
-        i, j = 3 * np.intp(limit.pairs[s, 0]), 3 * np.intp(limit.pairs[s, 1])
-        square = fill(y.dtype.type(limit.longest[s] * limit.longest[s]))
+    for s in range(pairs.shape[0]):
+        i, j = 3 * np.intp(pairs[s, 0]), 3 * np.intp(pairs[s, 1])
+        square = fill(squares[0, s])
         dx = load(y, j, lane) - load(y, i, lane)
         dy = load(y, j + 1, lane) - load(y, i + 1, lane)
         dz = load(y, j + 2, lane) - load(y, i + 2, lane)
@@ -148,12 +156,22 @@ def plane_is_long(y: Any, squares: Any, sheet: Any) -> bool:
 
 
 @kernel
+def is_long(x: Array, limit: StrainLimit) -> bool:
+    """Whether a spring of a cloth [N, 3] is too long."""
+    for s in range(limit.squares.size):
+        offset = subtract(row(x, limit.pairs[s, 1]), row(x, limit.pairs[s, 0]))
+        if dot(offset, offset) > limit.squares[s]:
+            return True
+    return False
+
+
+@kernel
 def longest_ratio(x: Array, limit: StrainLimit) -> float:
     """The greatest length of a spring of a cloth [N, 3] over its longest one; 0 without a limit."""
     most = 0.0
-    for s in range(limit.longest.size):
+    for s in range(limit.squares.size):
         offset = subtract(row(x, limit.pairs[s, 1]), row(x, limit.pairs[s, 0]))
-        most = max(most, dot(offset, offset) / (limit.longest[s] * limit.longest[s]))
+        most = max(most, dot(offset, offset) / limit.squares[s])
     return float(np.sqrt(most))
 
 
@@ -168,7 +186,7 @@ def shorten_long(x: Array, limit: StrainLimit) -> bool:
             s = count - 1 - n if back else n
             i, j = limit.pairs[s, 0], limit.pairs[s, 1]
             offset = subtract(row(x, j), row(x, i))
-            if dot(offset, offset) <= limit.longest[s] * limit.longest[s] or is_pinned(limit, s):
+            if dot(offset, offset) <= limit.squares[s] or is_pinned(limit, s):
                 continue
             again = True
             first = limit.follow[s, 0] if follows else limit.shares[s, 0]
@@ -202,7 +220,7 @@ def go_back(x0: Array, x: Array, limit: StrainLimit) -> bool:
     for s in range(limit.longest.size):
         i, j = limit.pairs[s, 0], limit.pairs[s, 1]
         offset = subtract(row(x, j), row(x, i))
-        square = limit.longest[s] * limit.longest[s]
+        square = limit.squares[s]
         if dot(offset, offset) <= square or is_pinned(limit, s):
             continue
         # Pinned particles are at their places already.
@@ -237,7 +255,7 @@ def limit_strain(x0: Array, x: Array, limit: StrainLimit) -> int:
     """Shorten the springs of a cloth that touches nothing, or go back towards x0, [N, 3]; returns
     whether one was long."""
     found = shorten_long(x, limit)
-    if found and longest_ratio(x, limit) > 1.0:
+    if found and is_long(x, limit):
         go_back(x0, x, limit)
     return int(found)
 

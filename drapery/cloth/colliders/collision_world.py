@@ -27,7 +27,7 @@ from drapery.cloth.colliders.sampling import SamplePoints
 from drapery.cloth.colliders.sweep import BOUNCED, MISSED, ContactParams, RigidSweep, sweep_point
 from drapery.cloth.colliders.vectors import Vector, add_scaled, norm, row, scale, subtract
 from drapery.cloth.contact.box_data import NO_CONTACT
-from drapery.cloth.contact.lanes_contact import STRAIN_ROUNDS, resolve_block
+from drapery.cloth.contact.lanes_contact import resolve_block
 from drapery.cloth.contact.self_contact_data import SelfContact
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
@@ -38,6 +38,8 @@ from drapery.mesh import Array
 
 THINNEST = 1e-4
 """The least distance kept from a surface [m]: on the surface itself normals are not reliable."""
+STRAIN_ROUNDS = 16
+"""How often springs that end over the limit are shortened and colliders applied again."""
 
 
 class ClothMotion(NamedTuple):

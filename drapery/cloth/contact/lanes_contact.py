@@ -37,6 +37,7 @@ from drapery.cloth.strain import (
     call_limit,
     excess_of_lanes,
     go_back,
+    is_long,
     longest_ratio,
     plane_is_long,
     shorten_long,
@@ -115,17 +116,17 @@ def resolve(work: Any, boxes: Any, itself: Any, limit: Any, careful: int) -> int
     met = meet_one(work.start, work.end, itself, contact, work.near)
     if careful == 0 and is_torn(work, boxes, itself, met):
         return TORN
-    if longest_ratio(work.end, limit) <= 1.0:
+    if not is_long(work.end, limit):
         return met
     for _ in range(STRAIN_ROUNDS):
         shorten_long(work.end, limit)
         meet_one(work.start, work.end, itself, contact, work.near)
-        if longest_ratio(work.end, limit) <= 1.0:
+        if not is_long(work.end, limit):
             return MET
     # The way back would lead into a box that moves.
     if not boxes_move(work) and go_back(work.start, work.end, limit):
         meet_one(work.start, work.end, itself, contact, work.near)
-    return MET if longest_ratio(work.end, limit) <= 1.0 else LONG
+    return LONG if is_long(work.end, limit) else MET
 
 
 @kernel
@@ -224,7 +225,7 @@ def meet_lanes(
     gaps, long = simd.empty_lanes(1, lanes, y), simd.empty_lanes(1, lanes, y)
     if before.shape[0] == 0:
         for first in range(0, min(y.shape[1], batch.cloths - start), lanes):
-            excess_of_lanes(long, y, batch.limit, first)
+            excess_of_lanes(long, y, batch.limit.pairs, batch.squares, first)
             for cloth in range(first, min(first + lanes, batch.cloths - start)):
                 if long[0, cloth - first] > 0:
                     limit_lane(y, u, batch, start, cloth, dt)
@@ -234,7 +235,7 @@ def meet_lanes(
         if not meets_itself(batch):
             extents, bands = batch.work.extents, batch.contact.bands
             store(gaps, 0, 0, gap_of_lanes(before, y, extents, bands, first))
-            excess_of_lanes(long, y, batch.limit, first)
+            excess_of_lanes(long, y, batch.limit.pairs, batch.squares, first)
         for cloth in range(first, min(first + lanes, batch.cloths - start)):
             at = cloth - first
             near = meets_itself(batch) or gaps[0, at] < 0 or long[0, at] > 0

@@ -70,9 +70,10 @@ class Batch(NamedTuple):
         box moves. resolve: address of the function that resolves it; 0 without contact. work:
         arrays for it, which no other thread uses.
     often: see `SolverState`. cloths: their number, B.
-    limit: the longest springs, see `drapery.cloth.strain`. squares: the same for a plane of lanes,
-        see `plane_squares`. strains: the longest spring of each cloth over its limit, in steps in
-        which that was not held; 0 where it was, [B]. limit_strain: address of the function.
+    limit: the longest springs, see `drapery.cloth.strain`. squares: of their lengths [m²], [1, S];
+        for a plane of lanes see `plane_squares`. strains: the longest spring of each cloth over its
+        limit, in steps in which that was not held; 0 where it was, [B]. limit_strain: address of
+        the function.
     width: lanes of a block.
     residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
         0 where every solve reached the tolerance, [B].
@@ -108,7 +109,7 @@ class SolverState:
     kernel: called with first, last, plan, batch, steps, substeps and the options; it steps whole
     registers of cloths, or one cloth at a time.
     often: whether contacts are resolved in every substep, not once a step. Free cloth lies still
-    only so. limit, squares: see `Batch`.
+    only so. limit: see `Batch`. squares: of a plane of lanes, see `plane_squares`.
     """
 
     plan: Any
@@ -241,6 +242,8 @@ def batch_of(
     dtype = state.positions.dtype
     x, v = lanes.to_lanes(state.positions), lanes.to_lanes(state.velocities)
     h, count = solver_state.dt / solver_state.substeps, int((cloth.inv_mass == 0).sum())
+    limit = solver_state.limit
+    squares = solver_state.squares if solver_state.alone else limit.squares[None]
     itself = NOT_ITSELF if boxes is None else boxes.itself
     return Batch(
         x,
@@ -266,8 +269,8 @@ def batch_of(
         contact_work(NO_CONTACT),
         solver_state.often,
         len(state.positions),
-        solver_state.limit,
-        solver_state.squares.astype(dtype),
+        limit,
+        squares.astype(dtype),
         np.zeros(x.shape[1]),
         limit_address(),
     )
