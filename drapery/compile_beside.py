@@ -27,8 +27,10 @@ def main(words: list[str]) -> None:
     if call is None:
         import_module(f"{words[0]}.__main__").main()
         return
-    module, name, types = call
-    getattr(import_module(module), name).dispatcher.compile(types)
+    from drapery.jit_compiled import compile_kernel
+
+    module, name, types, parameters = call
+    compile_kernel(getattr(import_module(module), name), types, parameters)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 """Decorators: `kernel` for functions that kernels call, `entry_point` for those Python calls.
 
-numba is imported, which takes a third of a second, when the first kernel has to be compiled or
-read from the cache. Kernels that were compiled ahead of time run without it; see `drapery.aot`.
+numba is imported, which takes longer than to draw a picture, when a kernel has to be compiled.
+Kernels that are stored, see `drapery.jit_cache`, or were compiled ahead of time, see `drapery.aot`,
+run without it.
 """
 
 import os
@@ -16,14 +17,14 @@ from importlib import import_module
 from typing import Any, TypeVar, cast
 
 from drapery.aot.arguments import pack
-from drapery.aot.library import CompiledKernel, kernels_of
+from drapery.aot.compiled import CompiledKernel
+from drapery.aot.library import kernels_of
 from drapery.errors import BackendError
 from drapery.kernel_sources import SIMD, Compiled, ImportedByNumba
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
-INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-OUTER = {"error_model": "numpy", "nogil": True}
+OPTIONS = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 REGISTER = 64
 """Bytes of the widest register for which kernels are written; see `drapery.cloth.simd`."""
 
@@ -40,7 +41,7 @@ _expected: ContextVar[tuple[Any, tuple[Any, ...]] | None] = ContextVar("_expecte
 class Kernel(Compiled):
     """A function that numba compiles when it is first used; kernels call it as any other."""
 
-    options: dict[str, Any] = INNER
+    options: dict[str, Any] = OPTIONS
     is_inner = True
     """Whether only kernels call it; see `drapery.jit_compiling`."""
 
@@ -81,36 +82,48 @@ class Kernel(Compiled):
 class Borrower(Kernel):
     """A kernel that does not count references to arrays."""
 
-    options = INNER | {"_nrt": False}
+    options = OPTIONS | {"_nrt": False}
 
 
 class EntryPoint(Kernel):
-    """A kernel that Python calls."""
+    """A kernel that Python calls, with numbers, arrays and tuples of them."""
 
-    options = OUTER
     is_inner = False
 
-    def __call__(self, *arguments: Any) -> Any:
-        if self._ahead:
-            packed = pack(arguments)
-            compiled = packed and self._ahead.get(packed.types)
-            if packed and compiled:
-                return compiled(packed.words)
-        return self.dispatcher(*arguments)
+    def __init__(self, function: Callable[..., object]) -> None:
+        super().__init__(function)
+        self._one_thread = threading.Lock()
 
-    def ahead(self, arguments: tuple[Any, ...]) -> CompiledKernel | None:
-        """The code that was compiled ahead of time for such arguments."""
+    def __call__(self, *arguments: Any) -> Any:
         packed = pack(arguments)
-        return self._ahead.get(packed.types) if packed else None
+        return self._compiled(packed.types, arguments)(packed.words)
+
+    def compiled(self, arguments: tuple[Any, ...]) -> CompiledKernel:
+        """The machine code for such arguments: made ahead of time, stored, or compiled now."""
+        return self._compiled(pack(arguments).types, arguments)
+
+    def _compiled(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> CompiledKernel:
+        if types not in self._ready:
+            with self._one_thread:
+                if types not in self._ready:
+                    self._ready[types] = self._loaded(types, arguments)
+        return self._ready[types]
+
+    def _loaded(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> CompiledKernel:
+        from drapery.jit_cache import read_kernel
+        from drapery.jit_objects import load
+
+        return load(read_kernel(self, types) or self._new(types, arguments))
+
+    def _new(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> Any:
+        _prepare_numba()
+        from drapery.jit_compiled import compile_kernel, types_of
+
+        return compile_kernel(self, types, types_of(arguments))
 
     @cached_property
-    def _ahead(self) -> dict[tuple[str, ...], CompiledKernel]:
+    def _ready(self) -> dict[tuple[str, ...], CompiledKernel]:
         return kernels_of(self)
-
-    def _make(self) -> Any:
-        from drapery.jit_cache import cache_on_disk
-
-        return cache_on_disk(super()._make(), self)
 
 
 class NumbaName(Compiled):
@@ -219,19 +232,12 @@ def call_by_address(result: type, example: tuple[Any, ...]) -> Any:
 
         return address_caller(result, example)
 
-    packed = pack(example)
-    types = packed.types if packed else ()
-    return NumbaName(make, result, types, ImportedByNumba("drapery.jit_calls"))
+    return NumbaName(make, result, pack(example).types, ImportedByNumba("drapery.jit_calls"))
 
 
 def address_of(function: Any, example: tuple[Any, ...]) -> int:
     """Where the compiled code of an entry point is in memory, for arguments as in `example`."""
-    compiled = function.ahead(example) if isinstance(function, EntryPoint) else None
-    if compiled:
-        return int(compiled.address)
-    from drapery.jit_calls import compiled_address
-
-    return compiled_address(function.dispatcher, example)
+    return int(function.compiled(example).address)
 
 
 @contextmanager
@@ -274,7 +280,7 @@ def expected_call() -> bytes:
     call = _expected.get()
     if call is None or not isinstance(call[0], EntryPoint):
         return b""
-    from drapery.jit_calls import pickled_call
+    from drapery.jit_compiled import pickled_call
 
     return pickled_call(*call)
 

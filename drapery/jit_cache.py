@@ -1,50 +1,44 @@
 """Compiled kernels on disk.
 
-numba's own cache checks only the file of a cached function, so an edit of a function that it calls
-from another file gives stale results. Here the key has all that the function is compiled from, see
-`drapery.kernel_sources`, and the versions of the compiler and its settings, such as
-NUMBA_BOUNDSCHECK. Each key has a folder of its own, so that installations with the same sources
-share their kernels. A damaged file is compiled again. A kernel of which something has no source is
-not stored. If no folder can be written, kernels are compiled in every process, and a warning says
-so once.
+The key of a kernel has all that it is compiled from, see `drapery.kernel_sources`, the versions of
+the compiler, its settings, such as NUMBA_BOUNDSCHECK, and the processor. Each key has a folder of
+its own, so that installations with the same sources share their kernels. A damaged file is
+compiled again. A kernel of which something has no source is not stored. If no folder can be
+written, kernels are compiled in every process, and a warning says so once.
 """
 
 import hashlib
-import inspect
+import json
 import logging
 import os
-import pickle
 import re
 import shutil
 import stat
+import sys
 import tempfile
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import llvmlite
-import numba
-from numba import config
-from numba.core import caching
-from numba.core.types import BaseTuple
-from numba.misc.appdirs import AppDirs
-
-from drapery.kernel_sources import SIMD, fields_of, source_key
+from drapery.aot.arguments import ABI
+from drapery.jit_objects import KernelObject, processor
+from drapery.kernel_sources import SIMD, source_key
 
 LOG = logging.getLogger(__name__)
 REMEDY = "set NUMBA_CACHE_DIR to a folder that can be written"
 MAX_SOURCES = 24
 """The most folders that are kept of one kernel, each for one state of its sources."""
-NOT_ABOUT_CODE = re.compile("CUDA|.*CUDA|DUMP_|CACHE_|COLOR_|.*NUM_THREADS|FULL_TRACEBACKS|.*WARN")
-"""Names of settings of numba that change no machine code."""
-
-_caching: Any = caching
-_config: Any = config
-_AppDirs: Any = AppDirs
+NOT_ABOUT_CODE = re.compile(
+    "NUMBA_(CUDA|.*CUDA|DUMP_|CACHE_|COLOR_|.*NUM_THREADS|FULL_TRACEBACKS|.*WARN)"
+)
+"""Variables of the environment that numba reads and that change no machine code."""
+NUMBA_SETTINGS = ".numba_config.yaml"
+"""A file of the working directory that numba reads."""
 
 
 @dataclass(frozen=True)
@@ -75,14 +69,28 @@ def cache_folders() -> Iterator[tuple[Path, bool]]:
     They are in NUMBA_CACHE_DIR if it is set, else beside the sources and in the user's cache
     folder; the last one is a private folder for temporary files.
     """
-    if _config.CACHE_DIR:
-        yield Path(_config.CACHE_DIR) / "drapery", False
+    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+        yield Path(chosen) / "drapery", False
     else:
         yield Path(__file__).parent / "__pycache__" / "kernels", False
-        yield Path(_AppDirs(appname="numba", appauthor=False).user_cache_dir) / "drapery", False
+        yield _user_cache_folder() / "drapery-kernels", False
     user = os.getuid() if hasattr(os, "getuid") else "user"
     with suppress(OSError):  # there may be no folder for temporary files
         yield Path(tempfile.gettempdir()) / f"drapery-kernels-{user}", True
+
+
+def _user_cache_folder() -> Path:
+    """The user's folder for files that programs can make again.
+
+    On Linux this is XDG_CACHE_HOME (XDG Base Directory Specification 0.8), if it is absolute.
+    """
+    home = Path.home()
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
+    if sys.platform == "darwin":
+        return home / "Library" / "Caches"
+    chosen = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    return chosen if chosen.is_absolute() else home / ".cache"
 
 
 def _try_folder(folder: Path, private: bool) -> None:
@@ -103,13 +111,45 @@ def _check_private(folder: Path) -> None:
         raise PermissionError(f"{folder} is not private to this user")
 
 
-def cache_on_disk(dispatcher: Any, entry_point: Any) -> Any:
-    """Give a function that numba will compile a cache, if there is a folder for one."""
+def read_kernel(entry_point: Any, types: tuple[str, ...]) -> KernelObject | None:
+    """The stored code of an entry point for arguments of these types, if there is one."""
+    try:
+        path = _path_of(entry_point, types)
+        if path is None or not path.is_file():
+            return None
+        content = path.read_bytes()
+        if hashlib.sha256(content[32:]).digest() != content[:32]:
+            raise ValueError("its hash is another one")
+        return KernelObject.from_bytes(content[32:])
+    except (OSError, ValueError) as fault:  # loading damaged code would end the process
+        LOG.info("a stored kernel of %s is compiled again: %s", entry_point.__name__, fault)
+        return None
+
+
+def write_kernel(entry_point: Any, types: tuple[str, ...], kernel: KernelObject) -> None:
+    """Store the code of an entry point for arguments of these types, if a folder can be written."""
+    path = _path_of(entry_point, types)
+    if path is None:
+        return
+    content = kernel.to_bytes()
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as file:
+            file.write(hashlib.sha256(content).digest() + content)
+        Path(file.name).replace(path)
+    except OSError as fault:
+        _warn_once(f"compiled kernels cannot be stored in {path.parent} ({fault.strerror})")
+
+
+def _path_of(entry_point: Any, types: tuple[str, ...]) -> Path | None:
+    """The file for the code of an entry point; None if its code is not stored."""
     if kernel_cache_status().folder is None:
         _warn_once(f"kernels are compiled in every process ({kernel_cache_status().reason})")
     elif key := source_key(entry_point):
-        dispatcher._cache = _KernelCache(dispatcher.py_func, key)
-    return dispatcher
+        name = f"{entry_point.__module__}.{entry_point.__qualname__}"
+        folder = folder_for(re.sub(r"[^\w.]", "_", name), key)
+        return folder / f"{hashlib.sha256(json.dumps(types).encode()).hexdigest()[:16]}.kernel"
+    return None
 
 
 @cache
@@ -135,13 +175,19 @@ def folder_for(kernel: str, source: str) -> Path:
 
 @cache
 def compiler_settings() -> str:
-    """The versions and settings that decide what machine code sources become.
+    """The versions and settings that decide what machine code sources become, and the processor.
 
     A setting of numba that is not known to change no code counts, whatever it does.
     """
-    found = {name: str(value) for name, value in vars(_config).items() if name.isupper()}
-    chosen = {name: found[name] for name in sorted(found) if not NOT_ABOUT_CODE.match(name)}
-    return f"{numba.__version__} {llvmlite.__version__} {os.environ.get(SIMD)} {chosen}"
+    words = {
+        name: value
+        for name, value in sorted(os.environ.items())
+        if name.startswith("NUMBA_") and not NOT_ABOUT_CODE.match(name)
+    }
+    with suppress(OSError):
+        words[NUMBA_SETTINGS] = Path(NUMBA_SETTINGS).read_bytes().hex()
+    versions = [version(name) for name in ("numba", "llvmlite")]
+    return f"{ABI} {versions} {processor()} {os.environ.get(SIMD)} {words}"
 
 
 def _delete_oldest(folder: Path) -> None:
@@ -151,82 +197,3 @@ def _delete_oldest(folder: Path) -> None:
         folders.sort(key=lambda each: each.stat().st_mtime)
         for each in folders[:-MAX_SOURCES]:
             shutil.rmtree(each, ignore_errors=True)
-
-
-class _Locator(_caching._CacheLocator):  # type: ignore[misc]
-    """Where numba stores one function. The folder has the key of its sources."""
-
-    def __init__(self, function: Callable[..., object], key: str) -> None:
-        self._function, self._key = function, key
-        self._py_file = inspect.getfile(function)  # numba's warnings name it
-
-    def get_cache_path(self) -> str:
-        name = f"{self._function.__module__}.{self._function.__qualname__}"
-        return str(folder_for(re.sub(r"[^\w.]", "_", name), self._key))
-
-    def get_source_stamp(self) -> str:
-        return self._key
-
-    def get_disambiguator(self) -> str:
-        return self._function.__module__
-
-    def from_function(self, py_func: Any, py_file: str) -> "_Locator":
-        return self
-
-
-class _CacheFormat(_caching.CompileResultCacheImpl):  # type: ignore[misc]
-    def __init__(self, function: Callable[..., object], key: str) -> None:
-        self._locator_classes = [_Locator(function, key)]
-        super().__init__(function)
-
-
-class _CheckedFiles(_caching.IndexDataCacheFile):  # type: ignore[misc]
-    """numba's files, with a hash before the machine code: loading damaged code ends the process."""
-
-    def _save_data(self, name: str, data: object) -> None:
-        content = self._dump(data)
-        with self._open_for_write(self._data_path(name)) as file:
-            file.write(hashlib.sha256(content).digest() + content)
-
-    def _load_data(self, name: str) -> Any:
-        content = Path(self._data_path(name)).read_bytes()
-        if hashlib.sha256(content[32:]).digest() != content[:32]:
-            raise pickle.UnpicklingError(f"{name} is damaged")
-        return pickle.loads(content[32:])
-
-
-def _fields(types: Any) -> Iterator[str]:
-    """The names and defaults of the fields of each named tuple among types of numba."""
-    for kind in types:
-        if hasattr(kind, "instance_class"):
-            yield fields_of(kind.instance_class)
-        if isinstance(kind, BaseTuple):
-            yield from _fields(kind)
-
-
-class _KernelCache(_caching.FunctionCache):  # type: ignore[misc]
-    """The cache of one function."""
-
-    def __init__(self, function: Callable[..., object], key: str) -> None:
-        self._impl_class = lambda function: _CacheFormat(function, key)
-        super().__init__(function)
-        self._cache_file = _CheckedFiles(self._cache_path, self._impl.filename_base, key)
-
-    def _index_key(self, sig: Any, codegen: Any) -> Any:
-        """numba's, with the fields of named tuples, whose types are equal in another order."""
-        return (*super()._index_key(sig, codegen), *_fields(sig))
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        try:
-            return super().load_overload(sig, target_context)
-        except Exception as fault:  # whatever unpickling of damaged bytes raises
-            LOG.info("a stored kernel in %s is compiled again: %s", self.cache_path, fault)
-            with suppress(OSError):  # then `save_overload` says so
-                self.flush()
-            return None
-
-    def save_overload(self, sig: Any, data: Any) -> None:
-        try:
-            super().save_overload(sig, data)
-        except OSError as fault:
-            _warn_once(f"compiled kernels cannot be stored in {self.cache_path} ({fault.strerror})")

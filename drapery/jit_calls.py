@@ -1,8 +1,7 @@
 """The parts of `drapery.jit` that need numba: calls by address, and notes of compilations."""
 
-import pickle
 from collections.abc import Callable
-from typing import Any, cast
+from typing import Any
 
 import numba
 from llvmlite import ir
@@ -22,7 +21,7 @@ _RESULTS: dict[type, Any] = {int: _types.int64}
 def address_caller(result: type, example: tuple[Any, ...]) -> Any:
     """The intrinsic behind `call_by_address`."""
     returned = _RESULTS[result]
-    wanted = _types.Tuple(_types_of(example))
+    wanted = _types.Tuple(tuple(map(_numba.typeof, example)))
     parameters = tuple(wanted)
 
     @_intrinsic
@@ -43,23 +42,6 @@ def address_caller(result: type, example: tuple[Any, ...]) -> Any:
         return returned(_types.int64, wanted), generate
 
     return call
-
-
-def compiled_address(dispatcher: Any, example: tuple[Any, ...]) -> int:
-    """Where numba's code of a function for such arguments is in memory."""
-    parameters = _types_of(example)
-    dispatcher.compile(parameters)
-    made = dispatcher.overloads[parameters]
-    return cast(int, made.library.get_pointer_to_function(made.fndesc.llvm_func_name))
-
-
-def pickled_call(function: Any, arguments: tuple[Any, ...]) -> bytes:
-    """The module and the name of an entry point, and the types of the arguments of a call of it."""
-    return pickle.dumps((function.__module__, function.__qualname__, _types_of(arguments)))
-
-
-def _types_of(example: tuple[Any, ...]) -> tuple[Any, ...]:
-    return tuple(_numba.typeof(each) for each in example)
 
 
 def call_at_first_compile(begin: Callable[[Any], None]) -> Callable[[], None]:

@@ -53,23 +53,19 @@ class Call:
 
 def recorded_calls() -> list[Call]:
     """The kernels that the pictures call, each with its types, in the order of their names."""
-    from numba import typeof
-
     from drapery import Banner, draw, iter_frames
     from drapery.aot.arguments import pack
     from drapery.cloth import grid
     from drapery.jit import EntryPoint
+    from drapery.jit_compiled import types_of
     from drapery.style import cover_crowd, make_shell
 
     found: dict[tuple[str, tuple[str, ...]], Call] = {}
+    run, look_up = EntryPoint.__call__, EntryPoint.compiled
 
     def note(kernel: Any, arguments: tuple[Any, ...]) -> None:
-        packed = pack(arguments)
-        if packed is not None:
-            call = Call(kernel, packed.types, tuple(map(typeof, arguments)))
-            found.setdefault((call.name, call.types), call)
-
-    run, look_up = EntryPoint.__call__, EntryPoint.ahead
+        call = Call(kernel, pack(arguments).types, types_of(arguments))
+        found.setdefault((call.name, call.types), call)
 
     def noted_run(self: Any, *arguments: Any) -> Any:
         note(self, arguments)
@@ -79,7 +75,7 @@ def recorded_calls() -> list[Call]:
         note(self, arguments)
         return look_up(self, arguments)
 
-    EntryPoint.__call__, EntryPoint.ahead = noted_run, noted_look_up  # type: ignore[method-assign]
+    EntryPoint.__call__, EntryPoint.compiled = noted_run, noted_look_up  # type: ignore[method-assign]
     banner = Banner.parse("white creeper:lime border:black")
     for options in PICTURES:
         draw(banner, **{"size": (32, 32), "time": 0.1, **options})
@@ -87,71 +83,42 @@ def recorded_calls() -> list[Call]:
     cloth = grid(2, 2, 1.0, 1.0)  # what the studio shows is covered by a kernel
     shell = make_shell(cloth.triangles, cloth.uvs)
     cover_crowd(shell, cloth.rest_positions[None].astype(float), 0.1)
-    EntryPoint.__call__, EntryPoint.ahead = run, look_up  # type: ignore[method-assign]
+    EntryPoint.__call__, EntryPoint.compiled = run, look_up  # type: ignore[method-assign]
     return [found[key] for key in sorted(found)]
 
 
-def compiled(call: Call, number: int, triple: str, processor: tuple[str, str]) -> tuple[bytes, str]:
-    """The object file of a kernel with a function that unpacks its arguments, and its result's
-    type."""
+def compiled(
+    call: Call, number: int, triple: str, processor: tuple[str, str]
+) -> tuple[bytes, dict[str, Any]]:
+    """The object file of a kernel with a function that unpacks its arguments; what it is."""
     import llvmlite.binding as llvm
 
-    overload = call.kernel.dispatcher.overloads[call.signature]
-    inner = overload.fndesc.llvm_func_name
+    from drapery.jit_compiled import caller_module, result_type
+
+    made = call.kernel.dispatcher.overloads[call.signature].fndesc
+    about = {"types": call.types, "result": result_type(made.restype)}
+    about |= {"symbol": f"drapery_call_{number}", "inner": f"drapery_inner_{number}"}
     text = call.kernel.dispatcher.inspect_llvm(call.signature)
     text = re.sub(r'target triple = ".*"', f'target triple = "{triple}"', text)
     text = re.sub(r'target datalayout = ".*"\n', "", text)
+    text = text.replace(made.llvm_func_name, str(about["inner"]))
     code = llvm.parse_assembly(text)
-    types = [str(each.type) for each in code.get_function(inner).arguments]
-    code = llvm.parse_assembly(text + wrapper(number, inner, types))
+    caller = caller_module(made, about["result"], about["symbol"], about["inner"])
+    code.link_in(llvm.parse_assembly(caller))
     machine = llvm.Target.from_triple(triple).create_target_machine(
         cpu=processor[0], features=processor[1], opt=3, reloc="pic", codemodel="default"
     )
     code.data_layout = str(machine.target_data)
     code.verify()
-    outer = {f"drapery_call_{number}", f"drapery_inner_{number}"}
     for each in [*code.functions, *code.global_variables]:
-        if not each.is_declaration and each.name not in outer:
+        if not each.is_declaration and each.name not in about.values():
             each.linkage = "internal"
     options = llvm.create_pipeline_tuning_options(speed_level=3)
     builder = llvm.create_pass_builder(machine, options)
     builder.getModulePassManager().run(code, builder)
     if "numba.dynamic.globals" in str(code):
         raise SystemExit(f"{call.name} holds an address of this process; leave it to numba")
-    return machine.emit_object(code), str(overload.fndesc.restype)
-
-
-def wrapper(number: int, inner: str, types: list[str]) -> str:
-    """A function of one block of words: the result, then the arguments of the kernel `inner`.
-
-    types: of the kernel's parameters: places for the result and an error, then the arguments.
-    """
-    lines, values = [], []
-    for index, kind in enumerate(types[2:]):
-        lines += [f"  %p{index} = getelementptr i64, ptr %block, i64 {index + 1}"]
-        lines += [f"  %v{index} = load {kind}, ptr %p{index}, align 8"]
-        values += [f"{kind} %v{index}"]
-    parameters = ", ".join(f"{kind} %a{index}" for index, kind in enumerate(types))
-    given = ", ".join(f"{kind} %a{index}" for index, kind in enumerate(types))
-    return "\n".join(
-        [
-            f"\ndefine i32 @drapery_inner_{number}({parameters}) {{",
-            f'  %status = call i32 @"{inner}"({given})',
-            "  ret i32 %status",
-            "}",
-            f"define i32 @drapery_call_{number}(ptr %block) {{",
-            "  %result = alloca [2 x i64], align 16",
-            "  %error = alloca ptr, align 8",
-            "  store i64 0, ptr %result, align 8",
-            "  store ptr null, ptr %error, align 8",
-            *lines,
-            f'  %status = call i32 @"{inner}"({", ".join(["ptr %result, ptr %error", *values])})',
-            "  %value = load i64, ptr %result, align 8",
-            "  store i64 %value, ptr %block, align 8",
-            "  ret i32 %status",
-            "}\n",
-        ]
-    )
+    return machine.emit_object(code), about
 
 
 def build(path: Path, platform: tuple[str, str], calls: list[Call]) -> None:
@@ -159,7 +126,7 @@ def build(path: Path, platform: tuple[str, str], calls: list[Call]) -> None:
     import llvmlite.binding as llvm
 
     from drapery.aot.arguments import ABI
-    from drapery.aot.library import RESULTS, SYMBOL
+    from drapery.aot.library import SYMBOL
     from drapery.kernel_sources import source_key
 
     llvm.initialize_all_targets()
@@ -170,27 +137,20 @@ def build(path: Path, platform: tuple[str, str], calls: list[Call]) -> None:
     with tempfile.TemporaryDirectory() as folder:
         objects = []
         for number, call in enumerate(calls):
-            content, result = compiled(call, number, triple, PROCESSORS[platform[1]])
-            if result not in RESULTS:
-                print(f"{call.name} returns {result}: left to numba")
-                continue
+            content, about = compiled(call, number, triple, PROCESSORS[platform[1]])
             objects.append(Path(folder, f"{number}.o"))
             objects[-1].write_bytes(content)
-            names = {"symbol": f"drapery_call_{number}", "inner": f"drapery_inner_{number}"}
-            kernels.setdefault(call.name, []).append(
-                {"types": call.types, "result": result, **names}
-            )
+            kernels.setdefault(call.name, []).append(about)
             sources[call.name] = source_key(call.kernel)
             print(f"{call.name}: {len(content) / 1000:.0f} kB, {len(call.types)} types")
         description = json.dumps({"abi": ABI, "sources": sources, "kernels": kernels})
         text = f"const char *{SYMBOL}(void) {{ return {json.dumps(description)}; }}\n"
-        about = Path(folder, "description.c")
-        about.write_text(text, encoding="utf-8")
-        runtime = Path(__file__).with_name("runtime.c")
+        describe = Path(folder, "description.c")
+        describe.write_text(text, encoding="utf-8")
         link = [sys.executable, "-m", "ziglang", "cc", "-shared", "-O2", "-s", "-target", target]
         if platform[0] == "linux":
             link.append("-Wl,--no-undefined")
-        subprocess.run([*link, "-o", path, *objects, about, runtime], check=True)
+        subprocess.run([*link, "-o", path, *objects, describe], check=True)
     print(f"{path}: {path.stat().st_size / 1000:.0f} kB")
 
 

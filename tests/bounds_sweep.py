@@ -1,7 +1,7 @@
 """All solvers on all layouts of lanes against all kinds of contact, for a few steps each.
 
 `test_cloth_bounds.py` runs this in a process whose kernels check every index, those of registers
-too: `NUMBA_BOUNDSCHECK=1 NUMBA_OPT=0 python tests/bounds_sweep.py`. Each case that reads or writes
+too: `NUMBA_BOUNDSCHECK=1 NUMBA_OPT=1 python tests/bounds_sweep.py`. Each case that reads or writes
 outside of an array is printed. Types of arguments are the same in all cases of a solver and layout,
 so each kernel is compiled once.
 """

@@ -7,13 +7,16 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+import llvmlite.ir
 import numpy as np
 import pytest
 from numba import typeof
 
+from drapery.aot import arguments as arguments_of
 from drapery.aot import library
 from drapery.aot.arguments import pack
 from drapery.jit import entry_point
+from drapery.jit_runtime import add_runtime
 
 RELEASE = Path(__file__).parent.parent / "release"
 
@@ -49,9 +52,16 @@ def test_arguments_with_the_same_types_have_the_same_types_for_numba():
                 assert typeof(one) == typeof(other), (one, other)
 
 
-@pytest.mark.parametrize("value", [None, "text", 2**63, 1 + 2j, [1], np.datetime64(0, "s")])
-def test_other_arguments_are_left_to_numba(value):
-    assert pack((1, (value,))) is None
+@pytest.mark.parametrize("value", [None, "text", 1 + 2j, [1], np.datetime64(0, "s")])
+def test_other_arguments_are_refused(value):
+    with pytest.raises(TypeError, match="a kernel takes no "):
+        pack((1, (value,)))
+
+
+@pytest.mark.parametrize("value", [2**63, -(2**63) - 1])
+def test_integers_beyond_64_bits_are_refused(value):
+    with pytest.raises(OverflowError, match="64 bits"):
+        pack((value,))
 
 
 def test_an_array_is_its_size_place_shape_and_strides():
@@ -135,7 +145,7 @@ def use(monkeypatch):
 def test_a_library_calculates_what_numba_does(built, use):
     (kernel,) = use(built).values()
     ours, theirs = arguments(), arguments()
-    assert kernel(pack(ours).words) is scaled_sum.dispatcher(*theirs) is True
+    assert kernel(pack(ours).words) is scaled_sum(*theirs) is True
     assert ours[0].tobytes() == theirs[0].tobytes()
     assert kernel(pack((*arguments()[:3], True)).words) is False
     assert kernel.address  # other kernels call it there
@@ -204,8 +214,31 @@ def test_cloth_of_a_picture_is_made_without_scipy():
     assert run.stdout.split() == [b"False"]
 
 
-def test_a_library_has_the_memory_that_kernels_in_pages_have():
-    """The module of pages is linked in every run of the tests; the library only in a release."""
-    sources = (RELEASE / "runtime.c", Path(library.__file__).parents[1] / "web/wasm/runtime.c")
-    ours, theirs = (set(re.findall(r"\b(?:NRT|numba)_\w+(?=\()", p.read_text())) for p in sources)
+def test_kernels_have_the_memory_that_kernels_in_pages_have():
+    """The module of pages is linked in every run of the tests; not all kernels are."""
+    module = llvmlite.ir.Module()
+    add_runtime(module)
+    ours = {each.name for each in module.functions if each.blocks}
+    text = (Path(library.__file__).parents[1] / "web/wasm/runtime.c").read_text()
+    theirs = set(re.findall(r"\b(?:NRT|numba)_\w+(?=\()", text))
     assert theirs and theirs <= ours
+
+
+def test_a_tuple_that_is_packed_again_has_its_present_words():
+    pair = Pair(np.zeros(3), (np.arange(2), 7))
+    before = pack((pair, 1))
+    assert pack((pair, 1)) == before
+    pair.first[:] = 1  # the words hold places, not values
+    assert pack((pair, 1)) == before
+    for number in range(100):  # tuples that are freed; others get their places in memory
+        assert pack(((number, np.zeros(1)),)).words[0] == number
+    assert pack((pair, 1)) == before
+
+
+def test_few_tuples_are_kept_and_none_with_large_arrays():
+    for number in range(100):
+        pack(((number, np.zeros(3)),))
+    large = (np.zeros(arguments_of.MOST_BYTES),)
+    pack((large,))
+    assert len(arguments_of._kept) <= arguments_of.MOST_KEPT
+    assert id(large) not in arguments_of._kept

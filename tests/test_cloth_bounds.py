@@ -11,7 +11,7 @@ import pytest
 from drapery.settings import SolverName
 
 HERE = Path(__file__).parent
-CHECKED = {"NUMBA_BOUNDSCHECK": "1", "NUMBA_OPT": "0", "DRAPERY_AOT": "0"}
+CHECKED = {"NUMBA_BOUNDSCHECK": "1", "NUMBA_OPT": "1", "DRAPERY_AOT": "0"}
 
 
 @pytest.mark.parametrize("name", get_args(SolverName))

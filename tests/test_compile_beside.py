@@ -60,7 +60,7 @@ def test_the_next_kernel_is_stored_for_the_types_of_its_call(start: Start, tmp_p
     process.stdin.flush()
     assert process.wait() == 0  # it does not wait for the end of its input
     process.stdin.close()
-    stored = list((tmp_path / "cache" / "drapery" / "beside_kernels.twice").rglob("*.nbc"))
+    stored = list((tmp_path / "cache" / "drapery" / "beside_kernels.twice").rglob("*.kernel"))
     assert len(stored) == 1
 
 

@@ -207,7 +207,7 @@ EDITS = {
         Place("drapery.cloth.contact.lanes_contact", "resolve"),
     ),
     "the options of the compiler": (
-        *("drapery/jit.py", '"nogil": True', '"nogil": False'),
+        *("drapery/jit.py", '"no_cfunc_wrapper": True', '"no_cfunc_wrapper": False'),
         Place("drapery.styles.kernels", "blur"),
     ),
     "what numba imports by name": (

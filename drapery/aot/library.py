@@ -5,15 +5,13 @@ import json
 import os
 import platform
 import sys
-from array import array
-from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from drapery.aot.arguments import ABI
+from drapery.aot.compiled import CompiledKernel
 from drapery.kernel_sources import source_key
 
 OFF = "DRAPERY_AOT"
@@ -21,29 +19,6 @@ OFF = "DRAPERY_AOT"
 SYMBOL = "drapery_kernels"
 """The function of the library that returns its description, a JSON text."""
 ENDINGS = {"linux": "so", "darwin": "dylib", "win32": "dll"}
-RESULTS: dict[str, Callable[[int], Any]] = {
-    "none": lambda word: None,
-    "int64": int,
-    "bool": lambda word: bool(word & 1),
-}
-"""How the word of a result becomes a value, by its type."""
-
-
-@dataclass(frozen=True)
-class CompiledKernel:
-    """A kernel for arguments of certain types. address: of the function that other kernels call."""
-
-    name: str
-    call: Callable[[int], int]
-    address: int
-    result: Callable[[int], Any]
-
-    def __call__(self, words: list[int]) -> Any:
-        """words: see `drapery.aot.arguments`. Raises MemoryError."""
-        block = array("q", [0, *words])
-        if self.call(block.buffer_info()[0]):
-            raise MemoryError(f"{self.name} could not get memory")
-        return self.result(block[0])
 
 
 def machine() -> str:
@@ -66,9 +41,7 @@ def kernels_of(entry_point: Any) -> dict[tuple[str, ...], CompiledKernel]:
     loaded, description = found
     if description["sources"][name] != source_key(entry_point):
         return {}
-    return {
-        tuple(each["types"]): _compiled(loaded, name, each) for each in description["kernels"][name]
-    }
+    return {tuple(each["types"]): _compiled(loaded, each) for each in description["kernels"][name]}
 
 
 @cache
@@ -98,8 +71,8 @@ def _has_registers() -> bool:
     return bool(getattr(numpy, "__cpu_features__", {}).get("AVX2"))
 
 
-def _compiled(loaded: ctypes.CDLL, name: str, description: dict[str, Any]) -> CompiledKernel:
+def _compiled(loaded: ctypes.CDLL, description: dict[str, Any]) -> CompiledKernel:
     call = getattr(loaded, description["symbol"])
     call.argtypes, call.restype = [ctypes.c_void_p], ctypes.c_int
     address = ctypes.cast(getattr(loaded, description["inner"]), ctypes.c_void_p).value
-    return CompiledKernel(name, call, address or 0, RESULTS[description["result"]])
+    return CompiledKernel(call, address or 0, description["result"], loaded)

@@ -41,7 +41,8 @@ def check_collider(collider: Collider, count: int = 2000) -> None:
             f"{name}: signed_distance at {_point(points[bad][0])} is {distances[bad][0]}; "
             "return a finite number everywhere"
         )
-    surface = to_surface(collider.packed, points)
+    surface = np.empty_like(points)
+    to_surface(collider.packed, points, surface)
     surface = surface[np.abs(sample_distances(collider.packed, surface)) < ON_SURFACE]
     if not len(surface):
         raise OptionError(f"{name}: no surface is found near its bounds; correct the bounds")
@@ -96,19 +97,22 @@ def _check_path(name: str, collider: Collider) -> None:
             )
 
 
-@entry_point
 def sample_distances(field: Field, points: Array) -> Array:
     """Signed distances [m] of points [M, 3] in the shape's frame, [M]."""
     distances = np.empty(len(points))
-    for i in range(len(points)):
-        distances[i] = distance(field, row(points, i), np.inf)[0]
+    _sample_distances(field, points, distances)
     return distances
 
 
 @entry_point
-def to_surface(field: Field, points: Array) -> Array:
+def _sample_distances(field: Field, points: Array, distances: Array) -> None:
+    for i in range(len(points)):
+        distances[i] = distance(field, row(points, i), np.inf)[0]
+
+
+@entry_point
+def to_surface(field: Field, points: Array, moved: Array) -> None:
     """Points [M, 3] moved to the surface along its directions; some may not reach it."""
-    moved = np.empty_like(points)
     for i in range(len(points)):
         p = row(points, i)
         for _ in range(64):
@@ -116,7 +120,6 @@ def to_surface(field: Field, points: Array) -> Array:
             p = add_scaled(p, -d, outward(field, p, direction))
         for axis in range(3):
             moved[i, axis] = p[axis]
-    return moved
 
 
 def _point(p: Array) -> str:

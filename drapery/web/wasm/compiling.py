@@ -4,15 +4,12 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from drapery import jit, jit_cache
+from drapery import jit
 
 if __name__ == "__main__":
-    # No kernel is imported yet. Registers of WebAssembly have 16 bytes; and Python does not call
-    # the code, which is not optimised, so it needs no wrappers and must not be kept. Where Python
-    # does call such code, it writes anywhere in memory.
+    # No kernel is imported yet. Registers of WebAssembly have 16 bytes. Where Python calls such
+    # code, it writes anywhere in memory.
     jit.REGISTER = 16
-    jit.EntryPoint.options = jit.INNER
-    vars(jit_cache)["cache_on_disk"] = lambda dispatcher, kernel: dispatcher
 
 from drapery import Banner, Settings
 from drapery.garments import find_garment
