@@ -221,7 +221,7 @@ class Settings:
         "Turn of a standing banner in sixteenths: 0 south, 4 west, 8 north, 12 east",
         bounds=(0, ROTATIONS - 1),
         audience="anyone",
-        affects=("shape",),
+        affects=("shape", "camera"),
         not_for=("wall", "item"),
     )
     facing: Facing | None = _option(
@@ -249,7 +249,7 @@ class Settings:
         "Let the camera go once around the subject in the time of an animation",
         audience="anyone",
         affects=("camera",),
-        not_for=("still", "page", "model"),
+        not_for=("still", "page", "live", "model"),
     )
     size: tuple[int, int] = _option(
         (512, 512),
@@ -260,6 +260,7 @@ class Settings:
         parts=("width", "height"),
         audience="anyone",
         affects=("camera", "file"),
+        not_for=("live",),
     )
     grid: tuple[int, int] = _option(
         (16, 31),
@@ -355,7 +356,7 @@ class Settings:
         unit="s",
         audience="anyone",
         affects=("motion", "animation"),
-        not_for=("loop",),
+        not_for=("loop", "live"),
     )
     seed: int = _option(
         0,
@@ -436,7 +437,7 @@ class Settings:
         bounds=(1, MAX_PIXEL),
         unit="pixels",
         affects=("file",),
-        not_for=("page",),
+        not_for=("page", "live"),
     )
     light: Lighting = _option(
         None,
@@ -481,7 +482,7 @@ class Settings:
         "Renderer: auto, soft, pyrender, or one of an installed package",
         takes=callable,
         affects=("file",),
-        not_for=("page", "link"),
+        not_for=("page", "live", "link"),
     )
     given: frozenset[str] = field(default=frozenset(), compare=False, repr=False, kw_only=True)
 
@@ -650,7 +651,7 @@ LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
             unit="s",
             audience="anyone",
             affects=("motion", "file"),
-            not_for=("still", "page"),
+            not_for=("still", "page", "live"),
             remedy=_AS_LOOP,
         ),
         "fps": Option(
@@ -662,7 +663,7 @@ LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
             unit="frames/s",
             audience="anyone",
             affects=("motion", "file"),
-            not_for=("still", "page"),
+            not_for=("still", "page", "live"),
             remedy=_AS_LOOP,
         ),
     }

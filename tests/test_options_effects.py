@@ -14,8 +14,10 @@ from drapery import Banner, Frame, OptionError, Settings, animate, draw, save_mo
 from drapery.cloth import Drag
 from drapery.garments import Garment, PlayerSettings, player_of
 from drapery.option import Output, Subject
-from drapery.packs import MemoryPack
+from drapery.packs import MemoryPack, open_packs
 from drapery.settings import OPTIONS
+from drapery.studio.live import Live
+from drapery.web.messages import MessageEncoder
 
 CREEPER = Banner.parse("white creeper:lime")
 SHIELD = replace(CREEPER, kind="shield")
@@ -176,6 +178,37 @@ def fault(shown: Shown, option: str, output: Output, folder: Path) -> str | None
         fits = str(error) == said or option in ("facing", "rotation", "turntable", "ground")
         return None if fits else f"{option} is refused as: {error}"
     return None if first != second else f"{option} does nothing"
+
+
+LIVE = [
+    name
+    for name, shown in SHOWN.items()
+    if not isinstance(shown.subject, Garment) and shown.options.get("placement") != "item"
+]
+"""An item lies still in its slot."""
+
+
+@pytest.mark.parametrize("name", LIVE)
+def test_an_option_changes_the_live_view_only_where_it_applies(name: str) -> None:
+    shown = SHOWN[name]
+    wrong = []
+    for option in OTHERS.keys() - shown.same - {"style"}:
+        plain = {**SMALL, **BESIDE.get(option, {}), **shown.options}
+        other = {**plain, option: shown.others.get(option, OTHERS[option])}
+        try:
+            differ = seen_live(shown.subject, plain) != seen_live(shown.subject, other)
+        except OptionError:  # of a facing or rotation that fits no placement
+            continue
+        if differ is not OPTIONS[option].applies(shown.words(plain), "live"):
+            wrong.append(option)
+    assert wrong == []
+
+
+def seen_live(subject: Any, options: dict[str, Any]) -> bytes:
+    settings = Settings(**options)
+    live = Live(subject, open_packs(settings.packs), settings)
+    live.step(20)
+    return b"".join(MessageEncoder(shape=(48, 64), flat=False).messages(live.shown()))
 
 
 def test_the_table_of_other_values_is_whole() -> None:

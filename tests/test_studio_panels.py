@@ -25,6 +25,7 @@ from drapery.studio.panels.library import LibraryPanel
 from drapery.studio.records import Design
 from drapery.studio.session import Session, Sessions, StudioConfig
 from drapery.studio.sketch import sketch_of
+from drapery.studio.snippets import KINDS, option_names
 
 SCOPE = {
     **{"type": "http", "method": "GET", "path": "/", "scheme": "http", "query_string": b""},
@@ -151,6 +152,35 @@ def test_an_item_has_no_turntable(in_page: Callable[..., None]) -> None:
         assert (session.settings.placement, session.settings.turntable) == ("item", False)
         fit()
         assert not group.visible
+
+    in_page(build)
+
+
+FIELDS = {
+    **dict.fromkeys(("seconds", "fps", "scale", "turntable", "view", "seed", "time"), 1),
+    **dict.fromkeys(("samples", "pixel", "background", "ground", "light", "shadow"), 1),
+    "size": 2,
+}
+"""How many fields of a file an option has."""
+
+
+def is_seen(element: Element) -> bool:
+    """Whether an element and all that holds it are visible."""
+    slot = element.parent_slot
+    return element.visible and (slot is None or is_seen(slot.parent))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_file_has_the_fields_of_the_options_that_apply_to_it(
+    kind: str, in_page: Callable[..., None]
+) -> None:
+    async def build(client: Client, session: Session) -> None:
+        choice = FileChoice(kind=kind)
+        with client:
+            file_options.build_options(session, choice)()
+        names = option_names(file_options.request_of(session, choice))
+        fields = [e for e in client.elements.values() if "option" in e.classes and is_seen(e)]
+        assert len(fields) == 1 + sum(FIELDS.get(name, 0) for name in names)
 
     in_page(build)
 

@@ -15,11 +15,11 @@ from drapery.option import one_of
 from drapery.settings import frame_count
 from drapery.studio.document import Document
 from drapery.studio.snippets import (
+    FILE_OPTIONS,
     KINDS,
     LOOPS,
     MODELS,
     MOVING,
-    SCALE,
     STILLS,
     ExportRequest,
     file_name,
@@ -85,7 +85,7 @@ def count_frames(request: ExportRequest) -> int:
 def check(request: ExportRequest) -> None:
     """Raise OptionError for a request that exceeds the limits; called before drawing starts."""
     one_of("kind", request.kind, KINDS)
-    SCALE.check(request.scale)
+    FILE_OPTIONS["scale"].check(request.scale)
     width, height = request.settings.size
     frames = count_frames(request)
     if request.kind in LOOPS and width * height * frames > MAX_PIXELS:

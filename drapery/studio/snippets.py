@@ -18,7 +18,7 @@ from drapery.garments import (
 )
 from drapery.option import Option, Output, Subject
 from drapery.scenes import Clip, SceneEntry, find_scene
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, OPTIONS, applicable, frame_count
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, OPTIONS, frame_count
 from drapery.studio.chosen_scene import SceneChoice
 
 FORMATS = {
@@ -33,16 +33,30 @@ MODELS = tuple(kind for kind, format in FORMATS.items() if format.kind() == "mod
 MOVING = (*LOOPS, *(kind for kind in MODELS if FORMATS[kind].moving))
 """The kinds that have a length."""
 
-SCALE = Option("scale", "Pixels of a texel", int, 8, bounds=(1, 256), unit="pixels")
-"""The option `--scale` of `drapery flat`."""
-OUTPUTS: dict[str, Output] = {
-    **dict.fromkeys(STILLS, "still"),
-    **dict.fromkeys(LOOPS, "loop"),
-    **dict.fromkeys(MODELS, "model"),
-    "face": "face",
-    "html": "page",
+FILE_OPTIONS: Mapping[str, Option] = {
+    **NAMED_OPTIONS,
+    **LOOP_OPTIONS,
+    "scale": Option(
+        "scale",
+        "Pixels of a texel",
+        int,
+        8,
+        bounds=(1, 256),
+        unit="pixels",
+        affects=("surface",),
+        not_for=("still", "loop", "model", "page", "live"),
+    ),
 }
-"""What each kind of file is for the table of options; a design has none."""
+"""The options of all files: of pictures, of animations, and `--scale` of `drapery flat`."""
+OUTPUTS: dict[str, tuple[Output, ...]] = {
+    **dict.fromkeys(STILLS, ("still",)),
+    **dict.fromkeys(LOOPS, ("loop",)),
+    **{kind: ("model", "loop" if kind in MOVING else "still") for kind in MODELS},
+    "face": ("face",),
+    "html": ("page",),
+}
+"""What each kind of file is for the table of options: a 3-D file holds a loop or one pose, and a
+design has no options."""
 
 _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-:./,#")
 
@@ -62,7 +76,7 @@ class ExportRequest:
     kind: str = "png"
     seconds: float = LOOP_OPTIONS["seconds"].default
     fps: float = LOOP_OPTIONS["fps"].default
-    scale: int = SCALE.default
+    scale: int = FILE_OPTIONS["scale"].default
     garment: str | None = None
     scene: SceneChoice | None = None
     skin: str | None = None
@@ -144,7 +158,7 @@ def file_name(request: ExportRequest, stem: str = "banner") -> str:
 
 def options_for(request: ExportRequest) -> Settings:
     """The options of this kind of file; the others have their default."""
-    given = {name: request.settings.as_given(name) for name in _names(request)}
+    given = _values(request)
     found = drawn_garment(request)
     return Settings(**given) if found is None else found.settings(**given)
 
@@ -164,7 +178,7 @@ def as_command(
     out = _quoted(file_name(request, stem))
     if request.kind == "json":
         return " ".join(["drapery show", *design, "--as json", ">", out])
-    command = _COMMANDS[OUTPUTS[request.kind]]
+    command = _COMMANDS[OUTPUTS[request.kind][0]]
     if player is not None:
         command, design = "player", [*_player_flags(player, called or {})]
     elif found is not None:
@@ -185,7 +199,7 @@ def as_python(
     banner = [] if found is None and request.banner is None else ["banner"]
     settings = _keywords(_changed(request, called or {}))
     named = [*_keywords(_timing(request)), *settings]
-    imported, line = _PYTHON[OUTPUTS.get(request.kind, request.kind)]
+    imported, line = _PYTHON[OUTPUTS[request.kind][0] if request.kind in OUTPUTS else request.kind]
     subject = banner or ["None"]
     words = {"drawn": banner + named, "model": [*subject, out, *named], "settings": settings}
     joined = {name: ", ".join(each) for name, each in words.items()}
@@ -259,24 +273,34 @@ _COMMANDS = {
 }
 
 
-def _names(request: ExportRequest) -> tuple[str, ...]:
-    """The options that apply to the file."""
+def option_names(request: ExportRequest) -> tuple[str, ...]:
+    """The names of the FILE_OPTIONS that apply to the file.
+
+    Raises OptionError for a garment or a skin that cannot be read.
+    """
     if request.kind not in OUTPUTS:
         return ()
     if drawn_garment(request) is not None:
         subject = Subject("player")  # the studio's texture is that of its cape
     else:
         subject = request.settings.subject(request.banner.kind if request.banner else "banner")
-    names = applicable(subject, OUTPUTS[request.kind])
-    # A 3-D file that waves holds a loop.
-    moves: Output | None = "loop" if request.kind in MOVING else None
-    return tuple(name for name in names if OPTIONS[name].applies(subject, moves))
+    return tuple(
+        name
+        for name, option in FILE_OPTIONS.items()
+        if all(option.applies(subject, output) for output in OUTPUTS[request.kind])
+    )
+
+
+def _values(request: ExportRequest) -> dict[str, Any]:
+    """The options of the picture that apply to the file, by name."""
+    names = (name for name in option_names(request) if name in OPTIONS)
+    return {name: request.settings.as_given(name) for name in names}
 
 
 def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any]:
     """This kind's options that differ from their default, or from those of the garment's file;
     packs have the user's names."""
-    values = {name: request.settings.as_given(name) for name in _names(request)}
+    values = _values(request)
     found = drawn_garment(request)
     default = Settings() if found is None else found.settings()
     changed = {
@@ -292,19 +316,16 @@ def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any
 
 
 def _timing(request: ExportRequest) -> dict[str, Any]:
-    if request.kind == "face":
-        return {} if request.scale == SCALE.default else {"scale": request.scale}
     if request.kind == "html":
         return {"size": request.settings.size}  # the command has another default
-    if request.kind not in MOVING:
-        return {}
-    chosen = {"seconds": request.seconds, "fps": request.fps}
-    return {name: value for name, value in chosen.items() if value != LOOP_OPTIONS[name].default}
+    names = (name for name in option_names(request) if name not in OPTIONS)
+    chosen = {name: getattr(request, name) for name in names}
+    return {name: value for name, value in chosen.items() if value != FILE_OPTIONS[name].default}
 
 
 def _flags(request: ExportRequest, called: Mapping[str, str]) -> Iterator[str]:
     for name, value in (_timing(request) | _changed(request, called)).items():
-        option = {**NAMED_OPTIONS, **LOOP_OPTIONS, "scale": SCALE}[name]
+        option = FILE_OPTIONS[name]
         flag = option.command_flag
         if option.several:
             for each in value:

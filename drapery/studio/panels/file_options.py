@@ -1,35 +1,35 @@
 """The options of an export: the kind of file, and the options that this kind has."""
 
-from collections.abc import Callable, Container
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 from nicegui import ui
 
-from drapery.option import Option
-from drapery.settings import LOOP_OPTIONS, OPTIONS
+from drapery.errors import DraperyError
+from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
 from drapery.studio.chosen_scene import scene_choice
 from drapery.studio.descriptions import choice_titles, view_title
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import (
+    FILE_OPTIONS,
     FORMATS,
     KINDS,
     LOOPS,
     MODELS,
     MOVING,
-    SCALE,
     STILLS,
     ExportRequest,
+    option_names,
 )
 from drapery.studio.translation import translated
 from drapery.studio.viewport import ViewportRequest
 from drapery.studio.widgets import text_element
 
-PICTURES = frozenset({*STILLS, *LOOPS})
 GROUNDS = {"transparent": "transparent", "colour": "one colour"}
 SKY = "#a8c8e8"
 
@@ -41,7 +41,7 @@ class FileChoice:
     kind: str = "png"
     seconds: float = LOOP_OPTIONS["seconds"].default
     fps: float = LOOP_OPTIONS["fps"].default
-    scale: int = SCALE.default
+    scale: int = FILE_OPTIONS["scale"].default
     colour: str = SKY
     changed: list[Callable[[], None]] = field(default_factory=list)
 
@@ -75,45 +75,59 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
     """The kind of file and the options of this kind; returns a callable that updates them."""
     fields = Fields(session)
 
-    def only(kinds: Container[str]) -> AbstractContextManager[None]:
-        return fields.only(lambda: choice.kind in kinds)
+    @cache
+    def names() -> tuple[str, ...]:
+        """The options of the file; those of any subject while a text of the page is not valid."""
+        try:
+            return option_names(request_of(session, choice))
+        except DraperyError:
+            return option_names(ExportRequest(None, Settings(), choice.kind))
 
-    def number(label: str, option: Option) -> None:
+    def only(name: str) -> AbstractContextManager[None]:
+        return fields.only(lambda: name in names())
+
+    def option(name: str, label: str, choices: Mapping[str, str] | None = None) -> None:
+        with only(name):
+            fields.option(name, label, choices)
+
+    def number(name: str, label: str) -> None:
         """A number that affects only the file."""
-        get = partial(getattr, choice, option.name)
-        fields.number(label, option, get, lambda number: choice.set(**{option.name: number}))
+        get = partial(getattr, choice, name)
+        with only(name):
+            fields.number(
+                label, FILE_OPTIONS[name], get, lambda number: choice.set(**{name: number})
+            )
 
     with ui.element("div").classes("options"):
         titles = {kind: title_of(kind) for kind in KINDS}
         fields.choice("File", titles, lambda: choice.kind, lambda kind: choice.set(kind=kind))
-        with only(PICTURES | {"html"}):
+        with only("size"):
             _sides(session, fields)
-        with only(MOVING):
-            number("Seconds", LOOP_OPTIONS["seconds"])
-            number("Frames/s", LOOP_OPTIONS["fps"])
-        with fields.only(lambda: choice.kind in LOOPS and _can_turn(session)):
-            fields.option("turntable", "Turntable")
-        with only("face"):
-            number("Pixels a texel", SCALE)
-        with only(PICTURES | {*MODELS, "html"}):
+        with ui.element("div").classes("option-group"):
+            number("seconds", "Seconds")
+            number("fps", "Frames/s")
+            # A scene has cameras of its own.
+            with fields.only(lambda: "turntable" in names() and not session.viewport.request.scene):
+                fields.option("turntable", "Turntable")
+            number("scale", "Pixels a texel")
             views = {str(name): view_title(str(name)) for name in OPTIONS["view"].choices}
-            fields.option("view", "View", views)
-            fields.option("seed", "Gusts (seed)")
-        with only({*STILLS, *MODELS}.difference(MOVING)):
-            fields.option("time", "Seconds in the wind")
-        with only(PICTURES):
-            fields.option("samples", "Samples a pixel", _by_view("samples"))
-            fields.option("pixel", "Enlarge pixels by")
-            _background(session, choice, fields)
+            option("view", "View", views)
+            option("seed", "Gusts (seed)")
+            option("time", "Seconds in the wind")
+            option("samples", "Samples a pixel", _by_view("samples"))
+            option("pixel", "Enlarge pixels by")
+            with only("background"):
+                _background(session, choice, fields)
             grounds = {name: name.replace("_", " ") for name in BLOCKS}
-            fields.option("ground", "Ground", BY_VIEW | grounds)
-            fields.option("light", "Light", _by_view("light"))
-            fields.option("shadow", "Shadow")
+            option("ground", "Ground", BY_VIEW | grounds)
+            option("light", "Light", _by_view("light"))
+            option("shadow", "Shadow")
 
     hint = text_element("", "p").classes("hint")
     differs = text_element("", "p").classes("warning")
 
     def fit() -> None:
+        names.cache_clear()
         fields.refresh()
         hint.set_text(translated(hint_of(choice.kind)))
         differs.set_text(translated(difference(session.viewport.request, choice.kind)))
@@ -168,11 +182,6 @@ def _sides(session: Session, fields: Fields) -> None:
     for place, label in enumerate(("Width", "Height")):
         get = partial(lambda place: session.settings.size[place], place)
         fields.number(label, OPTIONS["size"], get, partial(resize, place))
-
-
-def _can_turn(session: Session) -> bool:
-    """Whether a turntable turns what is shown: a scene has cameras of its own, an item a slot."""
-    return session.viewport.request.scene is None and session.settings.placement != "item"
 
 
 def _background(session: Session, choice: FileChoice, fields: Fields) -> None:

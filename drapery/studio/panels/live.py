@@ -5,8 +5,9 @@ from functools import cache
 from nicegui import run, ui
 
 from drapery.garments import find_garment, garment_names, skin_names
+from drapery.option import Subject
 from drapery.scenes import find_scene, scene_names
-from drapery.settings import OPTIONS
+from drapery.settings import OPTIONS, applicable
 from drapery.studio.chosen_scene import what_follows
 from drapery.studio.descriptions import named, view_title
 from drapery.studio.file_field import FileField
@@ -29,7 +30,11 @@ OWN = "your banner"
 """The choice that shows the design instead of a scene."""
 NONE = "none"
 """The choice that shows the banner instead of a garment."""
-SEEN = ("view", "rotation", "wind", "direction", "gusts")
+SEEN = tuple(
+    name
+    for name in applicable(Subject("garment"), "live")
+    if not {"wind", "camera"}.isdisjoint(OPTIONS[name].affects)
+)
 """The options that begin anew with each garment."""
 ZONE = ".panel-live"
 """Where the files of garments and skins are dropped."""
