@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, fields
 from functools import wraps
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, get_args
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, TypedDict, Unpack, get_args
 
 from drapery.errors import OptionError
 from drapery.option import Effect, Option, Output, Subject, shown, within
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from drapery.cloth import Fabric, Force, Solver, Wind
     from drapery.packs import PackLike
     from drapery.render import DrawScene, View
-    from drapery.styles import StyleLike
 
 Kind = Literal["auto", "banner", "shield", "cape", "elytra"]
 Pose = Literal["cloth", "vanilla"]
@@ -61,6 +60,21 @@ MAX_FORMAT = 9999
 
 _BY_FILE = ("garment", "player")
 """Subjects whose files describe their cloth."""
+
+
+class StyleObject(Protocol):
+    """What `style` takes in place of a name: a `drapery.styles.Style`."""
+
+    @property
+    def steps(self) -> Sequence[Any]:
+        """What it does, in order."""
+
+    def settle(self, settings: Settings) -> Settings:
+        """The settings with its own where they give none."""
+
+
+StyleLike: TypeAlias = str | Path | StyleObject
+"""A style: its name, its file or the object."""
 
 
 class Options(TypedDict, total=False):

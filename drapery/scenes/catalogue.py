@@ -12,11 +12,12 @@ from importlib import import_module
 from types import ModuleType
 from typing import get_type_hints
 
-import drapery.scenes
 from drapery.errors import OptionError
 from drapery.option import shown
 from drapery.scenes.parameters import SceneParameters, read_parameters
 from drapery.scenes.picture_grid import Picture
+
+_PACKAGE = __name__.rpartition(".")[0]
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ class SceneEntry:
 
 def scene_names() -> list[str]:
     """The names of all scenes, as on the command line."""
-    found = (info.name for info in pkgutil.iter_modules(drapery.scenes.__path__))
+    found = (info.name for info in pkgutil.iter_modules(import_module(_PACKAGE).__path__))
     return sorted(name.replace("_", "-") for name in found if _is_scene(name))
 
 
@@ -65,10 +66,10 @@ def find_scene(name: str) -> SceneEntry:
     known = scene_names()
     if name not in known:
         raise OptionError(f"scene {shown(name)} is not known; use one of: {', '.join(known)}")
-    module = import_module(f"drapery.scenes.{name.replace('-', '_')}")
+    module = import_module(f"{_PACKAGE}.{name.replace('-', '_')}")
     summary = (module.__doc__ or "").strip().splitlines()[0]
     return SceneEntry(name, summary, module)
 
 
 def _is_scene(name: str) -> bool:
-    return hasattr(import_module(f"drapery.scenes.{name}"), "play")
+    return hasattr(import_module(f"{_PACKAGE}.{name}"), "play")

@@ -9,8 +9,8 @@ from drapery.render.frame import Frame
 from drapery.scenes.catalogue import Clip, SceneEntry
 from drapery.scenes.picture_grid import drawn
 from drapery.scenes.styling import styled_pictures
-from drapery.settings import OPTIONS
-from drapery.styles.catalogue import StyleLike, combined_style
+from drapery.settings import OPTIONS, StyleLike
+from drapery.styles.catalogue import combined_style
 
 
 def scene_frames(

@@ -26,9 +26,10 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from drapery.settings import StyleLike
     from drapery.style.sheet import Sheet
     from drapery.styles.canvas import Canvas
-    from drapery.styles.catalogue import StyleLike, combined_style, find_style, style_names
+    from drapery.styles.catalogue import combined_style, find_style, style_names
     from drapery.styles.step import StepKind, StyleStep, over_time
     from drapery.styles.steps import STEPS
     from drapery.styles.style import Style
@@ -50,8 +51,9 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
+        "settings": ("StyleLike",),
         "styles.canvas": ("Canvas",),
-        "styles.catalogue": ("StyleLike", "combined_style", "find_style", "style_names"),
+        "styles.catalogue": ("combined_style", "find_style", "style_names"),
         "style.sheet": ("Sheet",),
         "styles.step": ("StepKind", "StyleStep", "over_time"),
         "styles.steps": ("STEPS",),

@@ -11,11 +11,11 @@ from collections.abc import Iterable
 from functools import cache, reduce
 from importlib.resources import as_file, files
 from operator import or_
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drapery.errors import OptionError
 from drapery.option import shown
+from drapery.settings import StyleLike
 from drapery.styles.style import Style
 
 if TYPE_CHECKING:
@@ -30,9 +30,6 @@ PRESETS = (
     *("pixel-art", "cel", "ink", "blueprint"),
 )
 """Names of the presets, in the order of lists."""
-
-StyleLike = str | Path | Style
-"""A style: its name, its file or the object."""
 
 PLAIN = Style("plain")
 """No step: what is drawn without a style."""
@@ -51,7 +48,7 @@ def find_style(name: StyleLike) -> Style:
     if isinstance(name, Style):
         return name
     if str(name).endswith(ENDING):
-        return Style.load(name)
+        return Style.load(str(name))
     if str(name) in PRESETS:
         return _preset(str(name))
     added = _added()
@@ -66,8 +63,9 @@ def find_style(name: StyleLike) -> Style:
 
 def combined_style(styles: StyleLike | Iterable[StyleLike]) -> Style:
     """All styles as one, in their order; `PLAIN` if there are none. Raises OptionError."""
-    several = (styles,) if isinstance(styles, str | Path | Style) else styles
-    found = [find_style(style) for style in several]
+    if isinstance(styles, str) or not isinstance(styles, Iterable):
+        return find_style(styles)
+    found = [find_style(style) for style in styles]
     return reduce(or_, found) if found else PLAIN
 
 
