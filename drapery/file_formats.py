@@ -35,6 +35,7 @@ class FileFormat:
     single: whether it is one file, with no other beside it.
     alpha: the transparency of its pixels: of 256 steps, of two, or none.
     matte: whether half-transparent pixels can be drawn over a colour.
+    lossy: whether a quality may be asked for, at which it loses something.
     moving: whether a 3-D file holds the motion of a loop.
     max_side: the largest width and height [px]; 0 for no limit of the format.
     max_fps: the most frames/s.
@@ -52,6 +53,7 @@ class FileFormat:
     single: bool = True
     alpha: Literal["full", "bit", "none"] = "full"
     matte: bool = False
+    lossy: bool = False
     moving: bool = False
     max_side: int = 0
     max_fps: float = MAX_FPS
@@ -87,10 +89,11 @@ FORMATS = (
     ),
     FileFormat(
         *("WebP", (".webp",), ("still", "loop"), None, "image/webp"),
+        lossy=True,
         max_side=16_383,
         writer="encode.webp.write_webp",
         reader="WEBP",
-        about="without loss",
+        about="without loss, unless `--quality` is given",
     ),
     FileFormat(
         *("GIF", (".gif",), ("loop", "still"), "loop", "image/gif"),

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from drapery.render.doctor import BackendReport, backend_report
     from drapery.render.drawing import Colour, draw_models, draw_scene, make_model
     from drapery.render.drawlist import DrawList, Topology, draw_list, make_topology
-    from drapery.render.encode import check_target, save_animation, save_frame
+    from drapery.render.encode import check_quality, check_target, save_animation, save_frame
     from drapery.render.encode.output import check_writable, make_folder, replacing
     from drapery.render.encode.png import apng_bytes, png_bytes
     from drapery.render.encode.quick_png import quick_png_bytes, quick_png_of_strips
@@ -87,6 +87,7 @@ __all__ = [
     "backend_names",
     "backend_report",
     "bake_normal_maps",
+    "check_quality",
     "check_target",
     "check_writable",
     "checkered",
@@ -155,7 +156,7 @@ __getattr__, __dir__ = lazy_names(
         "render.doctor": ("BackendReport", "backend_report"),
         "render.drawing": ("Colour", "draw_models", "draw_scene", "make_model"),
         "render.drawlist": ("DrawList", "Topology", "draw_list", "make_topology"),
-        "render.encode": ("check_target", "save_animation", "save_frame"),
+        "render.encode": ("check_quality", "check_target", "save_animation", "save_frame"),
         "render.encode.output": ("check_writable", "make_folder", "replacing"),
         "render.encode.png": ("apng_bytes", "png_bytes"),
         "render.encode.quick_png": ("quick_png_bytes", "quick_png_of_strips"),

@@ -15,15 +15,16 @@ class Frame:
 
     pixels: Pixels
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: str | Path, *, quality: int | None = None) -> None:
         """Write the picture in the format of the name's ending, see `drapery.file_formats`.
 
-        Raises OptionError for an ending or a size that no format of pictures has, OutputError for a
-        file that cannot be written.
+        quality: of a WebP that may lose something, 1 to 100.
+        Raises OptionError for an ending or a size that no format of pictures has, and for a quality
+        that does nothing, OutputError for a file that cannot be written.
         """
         from drapery.render.encode import save_frame
 
-        save_frame(self, path)
+        save_frame(self, path, quality=quality)
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,12 +43,13 @@ class Animation:
     def __len__(self) -> int:
         return len(self.frames)
 
-    def save(self, path: str | Path) -> None:
+    def save(self, path: str | Path, *, quality: int | None = None) -> None:
         """Write the animation in the format of the name's ending, see `drapery.file_formats`.
 
+        quality: of a WebP that may lose something, 1 to 100.
         Raises OptionError for an ending or a rate that no such format has and for no frames,
         OutputError for a target that cannot be written, BackendError for a video without PyAV.
         """
         from drapery.render.encode import save_animation
 
-        save_animation(self.frames, self.fps, path)
+        save_animation(self.frames, self.fps, path, quality=quality)

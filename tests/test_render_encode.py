@@ -478,3 +478,42 @@ def test_the_index_of_an_mp4_comes_first(tmp_path: Path) -> None:
     save_animation(noise(), 10, tmp_path / "a.mp4")
     data = (tmp_path / "a.mp4").read_bytes()
     assert data.index(b"moov") < data.index(b"mdat")
+
+
+def disc(count: int = 4) -> list[Frame]:
+    """A soft disc that moves over a transparent ground."""
+    y, x = np.mgrid[:96, :128]
+    frames = []
+    for number in range(count):
+        away = np.hypot(x - 50 - 9 * number, y - 48)
+        pixels = np.stack([x + y, 255 - x, y * 2, np.clip(40 - away, 0, 1) * 255], axis=-1)
+        frames.append(Frame(pixels.astype(np.uint8)))
+    return frames
+
+
+def test_a_quality_makes_webp_smaller_and_keeps_its_transparency(tmp_path: Path) -> None:
+    frames, sizes = disc(), []
+    for quality in (None, 90, 40):
+        for name, save in (
+            ("a.webp", lambda path, q: save_animation(frames, 10, path, quality=q)),
+            ("b.webp", lambda path, q: save_frame(frames[0], path, quality=q)),
+        ):
+            save(tmp_path / name, quality)
+            for found, frame in zip(decoded(tmp_path / name), frames, strict=False):
+                seen = frame.pixels[..., 3] > 0
+                assert np.array_equal(found[..., 3], frame.pixels[..., 3])
+                away = np.abs(found[seen].astype(int) - frame.pixels[seen])[:, :3].mean()
+                assert away == 0 if quality is None else 0 < away < 8
+        sizes.append((tmp_path / "a.webp").stat().st_size)
+    assert sizes[0] > sizes[1] > sizes[2]
+    assert len(decoded(tmp_path / "a.webp")) == len(frames)
+
+
+def test_a_quality_that_does_nothing_is_refused(tmp_path: Path) -> None:
+    for name in ("a.png", "a.gif", "a.apng", "folder/"):
+        with pytest.raises(OptionError, match=r"quality does nothing for .* it is for WebP"):
+            save_animation(disc(), 10, tmp_path / name, quality=50)
+    for quality in (0, 101, 2.5, True):
+        with pytest.raises(OptionError, match="quality"):
+            save_frame(disc()[0], tmp_path / "a.webp", quality=quality)
+    assert list(tmp_path.iterdir()) == []

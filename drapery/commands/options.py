@@ -68,6 +68,14 @@ BackgroundOption = Annotated[str, from_table("background")]
 BackendOption = Annotated[str, from_table("backend")]
 SecondsOption = Annotated[float, from_table("seconds")]
 FpsOption = Annotated[float, from_table("fps")]
+QualityOption = Annotated[
+    int | None,
+    typer.Option(
+        metavar="1-100",
+        help="Of a WebP that may lose something.",
+        show_default="nothing is lost",
+    ),
+]
 
 Command = TypeVar("Command", bound=Callable[..., None])
 _SOURCE = {"design": OptionalDesign, "form": FromOption, "number": NumberOption}

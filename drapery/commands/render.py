@@ -16,13 +16,14 @@ OutOption = Annotated[
 @o.pictured("still")
 def run(
     out: OutOption,
+    quality: o.QualityOption = None,
     **words: Any,
 ) -> None:
     """Draw a banner, shield, cape or elytra and write one picture."""
     from drapery import draw
-    from drapery.render import check_target
+    from drapery.render import check_quality, check_target
 
     options = o.options_of(words)
-    check_target(out, "still")
+    check_quality(check_target(out, "still"), quality)
     with compile_notice():
-        draw(o.design_of(words), **options).save(out)
+        draw(o.design_of(words), **options).save(out, quality=quality)

@@ -6,13 +6,15 @@ or not at all if writing fails.
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sized
+from functools import partial
 from importlib import import_module
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drapery.errors import OptionError
-from drapery.file_formats import FileFormat, Kind, format_of, formats_of
+from drapery.file_formats import FORMATS, FileFormat, Kind, format_of, formats_of
+from drapery.option import whole
 from drapery.render.encode.output import check_writable, replacing
 
 if TYPE_CHECKING:
@@ -22,17 +24,25 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int | None], None]
 
 
-def save_frame(frame: "HasPixels", path: str | Path, *, matte: "Matte | None" = None) -> None:
+def save_frame(
+    frame: "HasPixels",
+    path: str | Path,
+    *,
+    matte: "Matte | None" = None,
+    quality: int | None = None,
+) -> None:
     """Write one picture.
 
     matte: in a format whose pixels are opaque or have no colour, the colour behind half-transparent
-    pixels; with None, those of at least half alpha become opaque. Raises OptionError for an unknown
-    ending, a matte that does nothing and a picture that is too large for the format, OutputError
-    for a bad target.
+    pixels; with None, those of at least half alpha become opaque. quality: of a format that may
+    lose something, 1 to 100; with None it loses nothing. Raises OptionError for an unknown
+    ending, a matte or quality that does nothing and a picture that is too large for the format,
+    OutputError for a bad target.
     """
     format = check_target(path, "still")
     _check_matte(format, matte, "still")
-    _write(format, Path(path), _checked([frame], format, "still"), None, matte)
+    check_quality(format, quality)
+    _write(format, Path(path), _checked([frame], format, "still"), None, matte, quality)
 
 
 def save_animation(
@@ -41,13 +51,15 @@ def save_animation(
     path: str | Path,
     *,
     matte: "Matte | None" = None,
+    quality: int | None = None,
     total: int | None = None,
     progress: Progress | None = None,
 ) -> None:
     """Write frames as they come; each is encoded while the next ones are drawn.
 
     fps: frames/s, above 0. matte: as for `save_frame`; in a video it is the background (default:
-    white). progress: called with the number of frames drawn and `total`, by default len(frames).
+    white). quality: as for `save_frame`. progress: called with the number of frames drawn and
+    `total`, by default len(frames).
     Raises OptionError as `save_frame`, for no frames, frames of several sizes and more frames/s
     than the format has, OutputError for a bad target, BackendError if PyAV is missing. No error
     leaves a partial file; KeyboardInterrupt leaves the finished frames in a folder that had no
@@ -55,11 +67,12 @@ def save_animation(
     """
     format = check_target(path, "loop")
     _check_matte(format, matte, "loop")
+    check_quality(format, quality)
     check_fps(fps, format)
     if total is None and isinstance(frames, Sized):
         total = len(frames)
     counted = _counted(_checked(frames, format, "loop"), total, progress)
-    _write(format, Path(path), counted, fps, matte)
+    _write(format, Path(path), counted, fps, matte, quality)
 
 
 def check_target(path: str | Path, *kinds: Kind) -> FileFormat:
@@ -94,6 +107,18 @@ def check_fps(fps: float, format: FileFormat) -> None:
     raise OptionError(f"fps {fps:g}: {remedy}")
 
 
+def check_quality(format: FileFormat, quality: int | None) -> None:
+    """Raise OptionError for a quality that a format does not have."""
+    if quality is None:
+        return
+    if not format.lossy:
+        used = ", ".join(each.name for each in FORMATS if each.lossy)
+        raise OptionError(
+            f"quality does nothing for {format.name}; leave it out (it is for {used})"
+        )
+    whole("quality", quality, 1, 100)
+
+
 def writer_of(format: FileFormat) -> Any:
     """The function that writes a format."""
     module, _, name = format.writer.rpartition(".")
@@ -115,9 +140,12 @@ def _write(
     frames: "Iterator[HasPixels]",
     fps: float | None,
     matte: "Matte | None",
+    quality: int | None,
 ) -> None:
     """Write a loop, or a still if there is no rate."""
     write = writer_of(format)
+    if quality is not None:
+        write = partial(write, quality=quality)
     if format.single:
         with replacing(path) as unfinished:
             write(unfinished, frames, fps, matte)

@@ -1,4 +1,4 @@
-"""Lossless WebP, still and animated.
+"""WebP, still and animated; lossless unless a quality is given.
 
 Pillow compresses each frame, several in parallel; this module joins the frames as in
 "WebP Container Specification", Google, section "Extended File Format: Animation".
@@ -6,6 +6,7 @@ Pillow compresses each frame, several in parallel; this module joins the frames 
 
 import struct
 from collections.abc import Iterable
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
@@ -24,45 +25,62 @@ ANIMATED_WITH_ALPHA = 0x12
 DO_NOT_BLEND = 0x02
 
 
-def webp_bytes(pixels: Pixels, method: int = 4) -> bytes:
-    """A lossless WebP file, exact also where the picture is transparent.
+def webp_bytes(pixels: Pixels, method: int = 4, quality: int | None = None) -> bytes:
+    """A WebP file, lossless and exact also where the picture is transparent without a quality.
 
-    method: 0 (fast) to 6 (small).
+    method: 0 (fast) to 6 (small). quality: of colours, 1 to 100; their transparency is exact.
     """
     file = BytesIO()
+    if quality is not None:
+        Image.fromarray(pixels).save(file, "WEBP", quality=quality, method=method)
+        return file.getvalue()
     Image.fromarray(pixels).save(file, "WEBP", lossless=True, exact=True, method=method, quality=75)
     return file.getvalue()
 
 
 def write_webp(
-    path: Path, frames: Iterable[HasPixels], fps: float | None, matte: "Matte | None"
+    path: Path,
+    frames: Iterable[HasPixels],
+    fps: float | None,
+    matte: "Matte | None",
+    quality: int | None = None,
 ) -> None:
-    """A still, or an animation that loops forever."""
+    """A still, or an animation that loops forever. quality: see `webp_bytes`."""
     with path.open("wb") as file:
         if fps is None:
-            file.writelines(webp_bytes(frame.pixels) for frame in frames)
+            file.writelines(webp_bytes(frame.pixels, quality=quality) for frame in frames)
         else:
-            _write_loop(file, frames, fps)
+            _write_loop(file, frames, fps, quality)
 
 
-def _write_loop(file: BinaryIO, frames: Iterable[HasPixels], fps: float) -> None:
+def _write_loop(
+    file: BinaryIO, frames: Iterable[HasPixels], fps: float, quality: int | None
+) -> None:
     """Each frame replaces its rectangle, without blending."""
     pairs, times = with_previous(frame.pixels for frame in frames), frame_delays(fps, 1000)
-    for count, (patch, webp) in enumerate(encode_ahead(pairs, _encode_patch)):
+    encode = partial(_encode_patch, quality)
+    for count, (patch, webp) in enumerate(encode_ahead(pairs, encode)):
         if count == 0:
             height, width = patch.pixels.shape[:2]
             canvas = bytes([ANIMATED_WITH_ALPHA, 0, 0, 0]) + _size(width) + _size(height)
             file.write(b"RIFF\0\0\0\0WEBP")
             file.write(_chunk(b"VP8X", canvas) + _chunk(b"ANIM", bytes(6)))
-        file.write(_chunk(b"ANMF", _frame_header(patch, next(times)) + webp[12:]))
+        file.write(_chunk(b"ANMF", _frame_header(patch, next(times)) + _image_chunks(webp)))
     length = file.tell()
     file.seek(4)
     file.write(struct.pack("<I", length - 8))
 
 
-def _encode_patch(pair: tuple[Pixels | None, Pixels]) -> tuple[FramePatch, bytes]:
+def _encode_patch(
+    quality: int | None, pair: tuple[Pixels | None, Pixels]
+) -> tuple[FramePatch, bytes]:
     patch = changed_patch(*pair, grid=2)  # the format counts offsets in steps of two pixels
-    return patch, webp_bytes(patch.pixels, method=2)
+    return patch, webp_bytes(patch.pixels, 2 if quality is None else 4, quality)
+
+
+def _image_chunks(webp: bytes) -> bytes:
+    """A still's chunks without its header; a lossy one with transparency has a chunk for that."""
+    return webp[12 + 8 + 10 :] if webp[12:16] == b"VP8X" else webp[12:]
 
 
 def _frame_header(patch: FramePatch, milliseconds: int) -> bytes:
