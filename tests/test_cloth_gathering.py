@@ -7,7 +7,7 @@ from drapery import Banner
 from drapery.cloth import grid, max_stretch
 from drapery.cloth.gathering import fold_count, gathered_state
 from drapery.packs import open_packs
-from drapery.scenes.stager import ClothSpec, LiveBody, cloth_at_rest
+from drapery.scenes.bodies import ClothSpec, LiveBody, cloth_at_rest
 from drapery.settings import Settings
 from drapery.style.kinds import body_of
 

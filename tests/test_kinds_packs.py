@@ -21,7 +21,7 @@ from drapery.render.light import UNLIT
 from drapery.render.scene import Model, Scene
 from drapery.render.soft import draw_scene
 from drapery.scenes import loop
-from drapery.scenes.stager import texture_times
+from drapery.scenes.bodies import texture_times
 from drapery.settings import Settings
 from drapery.style.block import FLAG_MAPPING
 from drapery.style.board import stiff_board

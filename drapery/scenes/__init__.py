@@ -19,6 +19,17 @@ from typing import TYPE_CHECKING
 from drapery.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from drapery.scenes.bodies import (
+        STEP,
+        WIND_AXIS,
+        ClothSpec,
+        LiveBody,
+        StagedBody,
+        cloth_at_rest,
+        cloth_spec,
+        flow,
+        wind_of,
+    )
     from drapery.scenes.catalogue import Clip, SceneEntry, find_scene, scene_names
     from drapery.scenes.drawing import scene_frames
     from drapery.scenes.dressing import Dressed
@@ -41,17 +52,6 @@ if TYPE_CHECKING:
         played_body,
     )
     from drapery.scenes.recording import Schedule
-    from drapery.scenes.stager import (
-        STEP,
-        WIND_AXIS,
-        ClothSpec,
-        LiveBody,
-        StagedBody,
-        cloth_at_rest,
-        cloth_spec,
-        flow,
-        wind_of,
-    )
     from drapery.scenes.staging import Staging, floor_under
     from drapery.scenes.subjects import StagedSubject, loop, moments, stage, still, subject_of
 
@@ -123,7 +123,7 @@ __getattr__, __dir__ = lazy_names(
         ),
         "scenes.recording": ("Schedule",),
         "scenes.subjects": ("StagedSubject", "loop", "moments", "stage", "still", "subject_of"),
-        "scenes.stager": (
+        "scenes.bodies": (
             "STEP",
             "WIND_AXIS",
             "ClothSpec",

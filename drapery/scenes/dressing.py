@@ -29,10 +29,10 @@ from drapery.garments.model import Garment, GarmentPole
 from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
 from drapery.render.scene import Model, RiggedModel, Scene
+from drapery.scenes.bodies import STEP, wind_of
 from drapery.scenes.layered import common_bones, joint_contact, meet_each_other
 from drapery.scenes.moving import in_wind
 from drapery.scenes.recording import Drape, Meeting, Schedule, record
-from drapery.scenes.stager import STEP, wind_of
 from drapery.scenes.staging import Staging
 from drapery.scenes.styling import moved_by_style, tailored
 from drapery.scenes.wearers import Wearer, wearer_of

@@ -20,8 +20,7 @@ from drapery.cloth.live_wind import aim
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.soft.live_picture import draw_live, make_live_picture
-from drapery.scenes.recording import Schedule
-from drapery.scenes.stager import (
+from drapery.scenes.bodies import (
     LEE,
     STEP,
     StagedBody,
@@ -30,6 +29,7 @@ from drapery.scenes.stager import (
     forces_of,
     wind_of,
 )
+from drapery.scenes.recording import Schedule
 from drapery.scenes.staging import Staging
 from drapery.settings import Settings
 from drapery.style.block import turn_centre, turn_matrix

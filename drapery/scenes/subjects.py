@@ -11,8 +11,8 @@ from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.mesh import Array
 from drapery.render.scene import Scene
+from drapery.scenes.bodies import StagedBody
 from drapery.scenes.recording import Schedule
-from drapery.scenes.stager import StagedBody
 from drapery.settings import Settings
 from drapery.style.kinds import body_of
 
