@@ -60,7 +60,7 @@ def _add(value: Any, types: list[str], words: list[int]) -> int:
     kind: Any = type(value)
     if kind is np.ndarray:
         types.append(_array_type(value.dtype, value.ndim, value.flags.num & _LAYOUT))
-        words += (0, 0, value.size, value.itemsize, value.ctypes.data)
+        words += (0, 0, value.size, value.itemsize, value.__array_interface__["data"][0])
         words += value.shape
         words += value.strides
         return int(value.nbytes)
@@ -92,7 +92,9 @@ def _add(value: Any, types: list[str], words: list[int]) -> int:
 
 def _packed_tuple(value: tuple[Any, ...]) -> _KeptTuple:
     types, words = [_tuple_type(type(value))], list[int]()
-    size = sum(_add(part, types, words) for part in value)
+    size = 0
+    for part in value:
+        size += _add(part, types, words)
     types.append(")")
     return _KeptTuple(value, types, words, size)
 
