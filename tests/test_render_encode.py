@@ -511,7 +511,7 @@ def test_a_quality_makes_webp_smaller_and_keeps_its_transparency(tmp_path: Path)
 
 def test_a_quality_that_does_nothing_is_refused(tmp_path: Path) -> None:
     for name in ("a.png", "a.gif", "a.apng", "folder/"):
-        with pytest.raises(OptionError, match=r"quality does nothing for .* it is for WebP"):
+        with pytest.raises(OptionError, match=r"quality does nothing for .*it is for WebP"):
             save_animation(disc(), 10, tmp_path / name, quality=50)
     for quality in (0, 101, 2.5, True):
         with pytest.raises(OptionError, match="quality"):
