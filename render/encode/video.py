@@ -17,12 +17,8 @@ from drapery.render.pixels import HasPixels, Pixels
 WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1
 # A fixed number of threads, since the output of the encoders depends on it.
+H264 = "libx264"
 X264 = {"crf": "14", "preset": "medium", "tune": "animation"}
-MUXERS = {
-    # The index of an MP4 comes first, so that a page can play it before it has all of it.
-    "mp4": {"fflags": "+bitexact", "movflags": "+faststart"},
-    "webm": {"fflags": "+bitexact"},
-}
 VP9 = {"crf": "16", "b": "0", "deadline": "good", "cpu-used": "4"}
 
 
@@ -31,7 +27,7 @@ def write_mp4(
 ) -> None:
     """An MP4. The background is the matte, or white. Raises BackendError if PyAV is missing."""
     options = {**X264, "x264-params": "asm=AVX2"} if _has_avx512() else X264
-    _write_video(path, "mp4", "libx264", options, frames, fps or 1, matte or WHITE)
+    _write_video(path, "mp4", H264, options, frames, fps or 1, matte or WHITE)
 
 
 def write_webm(
@@ -56,9 +52,13 @@ def _write_video(
     """
     av = _load_av()
     first, frames = _peek(frames)
+    flags = {"fflags": "+bitexact"}
+    if codec == H264:
+        # The index comes first, so that a page can play the file before it has all of it.
+        flags["movflags"] = "+faststart"
     alpha = matte is None and bool((first.pixels[..., 3] < 255).any())
     try:
-        with av.open(str(path), "w", format=muxer, options=MUXERS[muxer]) as container:
+        with av.open(str(path), "w", format=muxer, options=flags) as container:
             stream = container.add_stream(codec, Fraction(fps).limit_denominator(1001), options)
             _describe(stream, first.pixels, "yuva420p" if alpha else "yuv420p")
             convert = partial(_video_frame, av, stream.pix_fmt, None if alpha else matte or WHITE)
