@@ -21,7 +21,7 @@ from drapery.scenes import Dressed, live_panels, played_garment, repeating_garme
 from drapery.style.skins import read_skin
 from drapery.web.messages import unpack
 from drapery.web.page import page_text
-from drapery.web.scene_file import garment_scene_bytes
+from drapery.web.scene_file import scene_bytes
 from drapery.web.wasm.module import module_info
 from drapery.web.wasm.plan import LANES, write_plan
 
@@ -101,7 +101,7 @@ def test_a_scene_of_a_player_names_its_textures() -> None:
     garment = player("elytra")
     settings = garment.settings(solver="desbrun", size=(96, 128))
     packs = open_packs(())
-    header, arrays = unpack(gzip.decompress(garment_scene_bytes(garment, packs, settings)))
+    header, arrays = unpack(gzip.decompress(scene_bytes(garment, packs, settings)))
     *wings, (plan, start, count, *names) = header["moving"]
     assert wings == [[n, *run, "vertices", "light"] for n, run in enumerate(header["grip"])]
     assert (plan, names) == (0, ["figure", "figureLight"]) and start + count == wings[0][1]

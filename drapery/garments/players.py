@@ -30,7 +30,7 @@ PICTURE = {"view": "hero", "wind": 0.5, "direction": 180.0, "gusts": 0.2}
 """Options of a player's picture unless others are given: a light wind from ahead."""
 BEHIND = ("cape", "elytra")
 """Garments that hang from the shoulders, behind a chestplate."""
-SHOULDERS = 24
+NECK = 24
 """Rings that are pinned by an edge above this height are around the neck [texels]."""
 CHESTPLATE = (0.85, 1.1)
 """How far a chestplate moves them up and back [texels]."""
@@ -109,7 +109,7 @@ def _is_around_neck(garment: Garment) -> bool:
     rings = [
         each.name
         for each in garment.piece
-        if isinstance(each, RingPiece) and each.place[1] + each.profile[0][0] > SHOULDERS
+        if isinstance(each, RingPiece) and each.place[1] + each.profile[0][0] > NECK
     ]
     return any(pin.piece in rings and isinstance(pin.at, str) for pin in garment.pin)
 

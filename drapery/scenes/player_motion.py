@@ -64,14 +64,16 @@ def player_poses(
     moves = _moves(who, folder, parts, loop)
     if not any(who.look):
         return moves
-    looks = _at_point if len(who.look) == 3 else _by_angles
     head = moves.bones.index("head")
 
     def looking(times: Array) -> Array:
         table = moves.at(times).copy()
         # The flag of a banner on the head needs time to follow.
         shares = np.ones(len(times)) if who.head is None else _eased(times)
-        rotations = looks(who.look, table, moves.bones, parts, shares)
+        if len(who.look) == 3:
+            rotations = _at_point(who.look, table, moves.bones, parts, shares)
+        else:
+            rotations = _by_angles(who.look, table, moves.bones, shares)
         table[:, head] = _about_joint(table[:, head], parts["head"], rotations)
         return table
 
@@ -157,13 +159,7 @@ def _mean(layers: Sequence[MotionLayer], times: Array) -> Array:
     return whole
 
 
-def _by_angles(
-    look: Sequence[float],
-    table: Array,
-    bones: Sequence[str],
-    parts: Mapping[str, FigurePart],
-    shares: Array,
-) -> Array:
+def _by_angles(look: Sequence[float], table: Array, bones: Sequence[str], shares: Array) -> Array:
     """Rotations of the head, turned to its left and downwards [degrees] beside its own motion."""
     yaw, pitch = (angle * shares for angle in look)
     turn = product(rotation_about((0, 1, 0), yaw), rotation_about((1, 0, 0), pitch))

@@ -23,7 +23,7 @@ from drapery.web.page import (
     render_template,
     seen_settings,
 )
-from drapery.web.scene_file import garment_scene_bytes, scene_bytes
+from drapery.web.scene_file import scene_bytes
 
 SIZE = (200, 300)
 """Width and height of each element [pixels]."""
@@ -136,11 +136,8 @@ def _scene_file(
     item: GalleryItem, subject: Banner | Garment | None, packs: Packs, settings: Settings
 ) -> dict[str, bytes]:
     try:
-        if isinstance(subject, Garment):
-            scene = garment_scene_bytes(subject, packs, settings)
-        else:
-            patterns = [layer.pattern for layer in subject.layers] if subject else []
-            scene = scene_bytes(subject, packs, settings, patterns)
+        patterns = [each.pattern for each in subject.layers] if isinstance(subject, Banner) else []
+        scene = scene_bytes(subject, packs, settings, patterns)
     except OptionError as error:
         raise OptionError(f"gallery, {item.name}: {error}") from error
     return {f"{item.name}.bin": scene}

@@ -24,7 +24,7 @@ from drapery.render import make_folder, replacing, webp_bytes
 from drapery.settings import Placement, Settings, applicable, settled_for
 from drapery.styles import combined_style
 from drapery.web.bundle import WEB, bundled_module
-from drapery.web.scene_file import garment_scene_bytes, scene_bytes
+from drapery.web.scene_file import scene_bytes
 from drapery.web.wasm.module import read_module
 
 MODULE = "drapery-banner.js"
@@ -127,7 +127,7 @@ def _garment_shown(garment: Garment, settings: Settings) -> _Shown:
     names = [each.name.replace("-", " ") for each in garment.over]
     title = f"{garment.name.title()} with {' and '.join(names)}" if names else garment.description
     attributes = {"kind": "player", "alt": title or garment.name}
-    scene = garment_scene_bytes(garment, packs, settings)
+    scene = scene_bytes(garment, packs, settings)
     return _Shown("drapery-player", attributes, {"player.bin": scene})
 
 
@@ -166,7 +166,7 @@ def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     for worn, pose, arms in product(WORN, POSES, ARMS):
         garment = posed_player(worn, pose, arms, overlay="whole")  # its skin can be replaced
         name = f"{worn}-{pose}{'-slim' if arms == 'slim' else ''}"
-        yield f"{name}.bin", garment_scene_bytes(garment, packs, seen_settings(garment, settings))
+        yield f"{name}.bin", scene_bytes(garment, packs, seen_settings(garment, settings))
     yield from kernel_file().items()
     yield MODULE, bundled_module().encode()
     for name in ("README.md", "drapery-banner.d.ts"):

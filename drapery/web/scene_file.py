@@ -34,6 +34,7 @@ from drapery.packs import Packs
 from drapery.render import Material, TextureLayer
 from drapery.scenes import (
     LiveBody,
+    PlayedSubject,
     Staging,
     cloth_at_rest,
     cloth_spec,
@@ -59,15 +60,31 @@ MAX_SIDE = 4096
 """The longest side of an atlas that every browser with WebGL 2 takes in practice [texels]."""
 
 
-def scene_bytes(
-    design: Banner | None, packs: Packs, settings: Settings, patterns: Sequence[str] = PATTERN_NAMES
-) -> bytes:
-    """The file of a body in the wind of the settings.
+_Message = tuple[dict[str, Any], dict[str, NDArray[Any]]]
 
-    design: None for a cape. patterns: those that designs in the page may have.
+
+def scene_bytes(
+    subject: Banner | Garment | None,
+    packs: Packs,
+    settings: Settings,
+    patterns: Sequence[str] = PATTERN_NAMES,
+) -> bytes:
+    """The file of a banner, a cape (None) or a garment on its wearer, in the wind of the settings.
+
+    patterns: those that designs in the page may have.
     Raises OptionError for what a page cannot show, PackError for textures that cannot be used, and
     WasmBuildError where the kernels of the cloth are not built.
     """
+    if isinstance(subject, Garment):
+        scene, played = _garment_scene(subject, packs, settings)
+    else:
+        scene, played = _body_scene(subject, packs, settings, patterns)
+    return _packed(scene, plans_of(played))
+
+
+def _body_scene(
+    design: Banner | None, packs: Packs, settings: Settings, patterns: Sequence[str]
+) -> tuple[_Message, PlayedSubject]:
     body = body_of(design, packs, settings)
     live = LiveBody(body, settings)
     staging = live.staging
@@ -81,11 +98,12 @@ def scene_bytes(
         scene[1]["still"] = _still(shown, settings)
     except OptionError as error:
         scene[0]["noPicture"] = f"the picture cannot be drawn in a page: {error}"
-    return _packed(scene, plans_of(played_body(body, settings)))
+    return scene, played_body(body, settings)
 
 
-def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> bytes:
-    """The file of a garment on its wearer, in the wind of the settings. Errors: `scene_bytes`."""
+def _garment_scene(
+    garment: Garment, packs: Packs, settings: Settings
+) -> tuple[_Message, PlayedSubject]:
     settings = settled(settings, Subject("garment"), own=garment.picture)
     staging = Staging(settings)
     _check(staging.settings, staging.style, True)
@@ -110,12 +128,10 @@ def garment_scene_bytes(garment: Garment, packs: Packs, settings: Settings) -> b
             "skin": {"shown": [shown[runs[0][0]]], "area": skin},
             "cape": {"shown": [shown[start] for start, _ in header["grip"]], "area": cape},
         }
-    return _packed(scene, plans_of(played_garment(worn)))
+    return scene, played_garment(worn)
 
 
-def _first_message(
-    state: ViewerState, settings: Settings
-) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+def _first_message(state: ViewerState, settings: Settings) -> _Message:
     """The scene and its first moment as one header and arrays."""
     encoder = MessageEncoder(shape=settings.size, flat=False)
     scene, moment = map(unpack, encoder.messages(state))
@@ -126,7 +142,7 @@ def _first_message(
     return header, {**scene[1], **moment[1]}
 
 
-def _packed(scene: tuple[dict[str, Any], dict[str, NDArray[Any]]], plans: Sequence[bytes]) -> bytes:
+def _packed(scene: _Message, plans: Sequence[bytes]) -> bytes:
     header, arrays = scene
     for number, plan in enumerate(plans):
         arrays[f"plan{number}"] = np.frombuffer(plan, np.uint8)
