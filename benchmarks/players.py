@@ -23,7 +23,7 @@ from drapery.garments import PlayerSettings, player_of
 from drapery.packs import open_packs
 from drapery.pictures import draw_scenes
 from drapery.render import Frame, save_animation, save_frame
-from drapery.scenes import Dressed, loop
+from drapery.scenes import Dressed, Schedule, loop
 from drapery.testing.garment_check import deepest
 
 COUNT = 100
@@ -99,7 +99,7 @@ def contact(name: str, moments: int) -> None:
             deepest(sewn, sheet[number], dressed.colliders(sewn), time)
             for sewn, sheet in zip(dressed.cloths, sheets, strict=True)
         )
-        for sheets in [dressed.sheets(times)]
+        for sheets in [dressed.record(Schedule.at(times, dressed.step))]
         for number, time in enumerate(times)
     ]
     inside = sum(depth > 0 for depth in depths)

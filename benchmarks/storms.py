@@ -189,7 +189,7 @@ def _dressed(storm: Storm, settings: Settings, seconds: float) -> tuple[float, f
     dressed = Dressed(garment, open_packs(()), settings)
     every = EVERY * STEP
     times = [every * number for number in range(1, round(seconds / every) + 1)]
-    sheets, stretch, depth = dressed.sheets(times), 0.0, -np.inf
+    sheets, stretch, depth = dressed.record(Schedule.at(times, dressed.step)), 0.0, -np.inf
     for sewn, motion in zip(dressed.cloths, sheets, strict=True):
         solids = dressed.colliders(sewn) if garment.collisions != "none" else ()
         for at, positions in zip(times, motion, strict=True):

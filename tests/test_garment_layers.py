@@ -8,7 +8,7 @@ from drapery.cloth.collisions import contact_stage
 from drapery.garments import SewnCloth, dressed_player, find_garment, make_wearer, tailor
 from drapery.garments.layering import outermost, put_outside, sampled
 from drapery.packs import open_packs
-from drapery.scenes import Dressed
+from drapery.scenes import Dressed, Schedule
 from drapery.scenes.layered import common_bones, meet_each_other
 from drapery.style.figure import TEXEL
 
@@ -126,8 +126,10 @@ def test_garments_of_one_wearer_do_not_pass_through_each_other() -> None:
     player = dressed_player(make_wearer(speed=2.5, motion="run"), wear=("skirt", "cape"))
     dressed = Dressed(player, open_packs(()), player.settings())
     times = [0.0, 0.2, 0.4, 0.6]
-    one, other = dressed.sheets(times)
+    one, other = dressed.record(Schedule.at(times, dressed.step))
     faces = [each.cloth.triangles for each in dressed.cloths]
     assert [crossings(a, faces[0], b, faces[1]) for a, b in zip(one, other, strict=True)] == [0] * 4
-    again = Dressed(player, open_packs(()), player.settings()).sheets(times[:2])
+    again = Dressed(player, open_packs(()), player.settings()).record(
+        Schedule.at(times[:2], dressed.step)
+    )
     assert np.array_equal(again[1], other[:2])

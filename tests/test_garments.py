@@ -40,7 +40,7 @@ from drapery.garments.textures import texture_of
 from drapery.mesh import face_normals, vertex_normals
 from drapery.packs import open_packs
 from drapery.player_settings import PlayerSettings
-from drapery.scenes import Dressed
+from drapery.scenes import Dressed, Schedule
 from drapery.settings import Settings
 from drapery.sheets import garments_sheet
 from drapery.style.block import FLAG_MAPPING
@@ -343,7 +343,7 @@ def test_pins_move_with_their_bone() -> None:
     garment = find_garment("leash").model_copy(update={"wearer": find_garment("cape").wearer})
     dressed = Dressed(garment, open_packs(()), Settings(wind=0))
     (sewn,) = dressed.cloths
-    (sheet,) = dressed.sheets([0.0, 0.2])
+    (sheet,) = dressed.record(Schedule.at([0.0, 0.2], dressed.step))
     held = np.flatnonzero(sewn.cloth.inv_mass == 0)
     moved = np.abs(sheet[1, held] - sheet[0, held]).max(axis=1)
     by_bone = dict(zip(sewn.bones, moved.tolist(), strict=True))
@@ -434,7 +434,7 @@ def test_a_3d_file_stops_cloth_and_is_drawn(tmp_path: Path) -> None:
     dressed = Dressed(garment, open_packs(()), garment.settings())
     (model,) = dressed.fixed
     assert model.mesh.positions.max(axis=0).tolist() == [1, 1 + 2 / 16, 1]
-    (sheet,) = dressed.sheets([0.6])
+    (sheet,) = dressed.record(Schedule.at([0.6], dressed.step))
     assert abs(sheet[0, 40, 1] - 1.125) < 0.1  # the middle lies on the top
     assert sheet[0, :, 1].min() < 0.9  # its sides hang lower
 

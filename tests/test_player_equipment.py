@@ -10,7 +10,7 @@ from drapery.cloth import Box
 from drapery.errors import OptionError, PackError
 from drapery.garments import dressed_player, make_wearer, tailor
 from drapery.packs import MemoryPack, open_packs
-from drapery.scenes import Dressed
+from drapery.scenes import Dressed, Schedule
 from drapery.settings import Settings
 from drapery.style.equipment import armor_on, banner_pole, parse_armor, shield_in_hand
 from drapery.style.figure import PARTS, TEXEL
@@ -79,7 +79,7 @@ def test_the_flag_on_a_head_stays_before_its_pole() -> None:
     player = dressed_player(make_wearer(head="red", motion="walk", speed=3.0))
     dressed = Dressed(player, NONE, player.settings(wind=3.0))
     (flag,) = dressed.cloths
-    (positions,) = dressed.sheets([0.4])
+    (positions,) = dressed.record(Schedule.at([0.4], dressed.step))
     middle = positions[0].reshape(17, 9, 3)[:, 3:6]
     place, turn = dressed.wearer.poses(0.4)["head"]  # type: ignore[union-attr]
     at_rest = ((middle - place) @ turn) / TEXEL

@@ -12,7 +12,7 @@ from drapery.garments import Garment, dressed_player, find_garment, make_wearer,
 from drapery.garments.motions import KeyPose, bone_table, find_motion, player_bones
 from drapery.garments.poses import BonePoses
 from drapery.packs import open_packs
-from drapery.scenes import Dressed
+from drapery.scenes import Dressed, Schedule
 from drapery.scenes.gait import Gait
 from drapery.style.figure import PARTS, TEXEL, WING_JOINTS
 from drapery.testing import check_garment
@@ -39,7 +39,10 @@ def wings(motion: str) -> tuple[np.ndarray, np.ndarray]:
 
 def recorded(dressed: Dressed, times: list[float]) -> tuple[np.ndarray, np.ndarray]:
     columns, rows = find_garment("elytra").piece[0].points  # type: ignore[union-attr]
-    left, right = (sheet.reshape(-1, rows, columns, 3) for sheet in dressed.sheets(times))
+    left, right = (
+        sheet.reshape(-1, rows, columns, 3)
+        for sheet in dressed.record(Schedule.at(times, dressed.step))
+    )
     assert dressed.wearer is not None
     head = PARTS["head"].centre + CORNERS * PARTS["head"].extent / 2
     poses = [dressed.wearer.poses(time)["head"] for time in times]

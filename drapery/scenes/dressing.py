@@ -218,13 +218,6 @@ class Dressed:
         apart = sewn.thickness if collisions == "all" else None
         return Collisions(self.colliders(sewn), sewn.distance, order=3, apart=apart)
 
-    def sheets(self, times: Sequence[float]) -> Sequence[Array]:
-        """The positions of each cloth at some times of one motion from rest [m], each [F, N, 3].
-
-        times: [s], rounded to time steps. Raises OptionError.
-        """
-        return self.record(Schedule.at(times, self.step))
-
     def scenes(self, motions: Sequence[Array], at: Schedule) -> Iterator[Scene]:
         """The scene of each picture of a schedule; the figure of a loop is as it is after settling.
 

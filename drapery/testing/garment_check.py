@@ -10,7 +10,7 @@ from drapery.cloth import Box, Collider, max_stretch
 from drapery.errors import OptionError
 from drapery.garments import Garment, SewnCloth
 from drapery.packs import open_packs
-from drapery.scenes import Dressed
+from drapery.scenes import Dressed, Schedule
 
 Points = NDArray[np.floating[Any]]
 
@@ -31,8 +31,8 @@ def check_garment(garment: Garment, seconds: float = SECONDS) -> None:
     packs, settings = open_packs(()), garment.settings()
     times = [frame / FPS for frame in range(round(seconds * FPS) + 1)]
     dressed = Dressed(garment, packs, settings)
-    sheets = dressed.sheets(times)
-    again = Dressed(garment, packs, settings).sheets(times[:3])
+    sheets = dressed.record(Schedule.at(times, dressed.step))
+    again = Dressed(garment, packs, settings).record(Schedule.at(times[:3], dressed.step))
     name = f"garment {garment.name}"
     for sewn, sheet, other in zip(dressed.cloths, sheets, again, strict=True):
         pieces = ", ".join(piece.name for piece in sewn.pieces)
