@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 from drapery.errors import OptionError
 from drapery.file_formats import FORMATS, FileFormat, Kind, format_of, formats_of
-from drapery.option import whole
 from drapery.render.encode.output import check_writable, replacing
 
 if TYPE_CHECKING:
@@ -116,7 +115,8 @@ def check_quality(format: FileFormat, quality: int | None) -> None:
         raise OptionError(
             f"quality does nothing for {format.name}; leave it out (it is for {used})"
         )
-    whole("quality", quality, 1, 100)
+    if isinstance(quality, bool) or quality not in range(1, 101):
+        raise OptionError(f"quality {quality!r} is not a whole number from 1 to 100; give one")
 
 
 def writer_of(format: FileFormat) -> Any:

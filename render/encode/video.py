@@ -16,8 +16,8 @@ from drapery.render.pixels import HasPixels, Pixels
 
 WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1
-# A fixed number of threads, since the output of the encoders depends on it.
 H264 = "libx264"
+# A fixed number of threads, since the output of the encoders depends on it.
 X264 = {"crf": "14", "preset": "medium", "tune": "animation"}
 VP9 = {"crf": "16", "b": "0", "deadline": "good", "cpu-used": "4"}
 
