@@ -12,6 +12,7 @@ COMMANDS = (
     "render",
     "animate",
     "flat",
+    "icon",
     "show",
     "blazon",
     "letters",
