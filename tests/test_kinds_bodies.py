@@ -21,7 +21,7 @@ from drapery.style.block import turn
 from drapery.style.extrusion import THINNEST
 from drapery.style.figure import CAPE_SIZE
 from drapery.style.kinds import KINDS
-from drapery.style.kinds.player import SHOULDERS
+from drapery.style.kinds.back import SHOULDERS
 from drapery.style.slot import BANNER_POSE, in_slot
 
 BANNER = Banner.parse("white creeper:lime stripe_left:red border:black")

@@ -10,7 +10,7 @@ from drapery.settings import Settings
 from drapery.style.board import moved, stiff_board, tilted
 from drapery.style.body import Body, Panel, Solid, half_space
 from drapery.style.figure import CAPE_SIZE, PARTS, TEXEL, cape_mapping
-from drapery.style.kinds.player import SHEET, SHOULDERS, back_texture
+from drapery.style.kinds.back import SHEET, SHOULDERS, back_texture
 
 CAPE_MAPPING = cape_mapping(SHEET)
 BACK = 2.6

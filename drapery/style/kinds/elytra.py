@@ -14,7 +14,7 @@ from drapery.settings import Settings
 from drapery.style.body import Body, Part
 from drapery.style.boxes import ModelBox, box_mesh
 from drapery.style.figure import TEXEL
-from drapery.style.kinds.player import SHEET, SHOULDERS, back_texture
+from drapery.style.kinds.back import SHEET, SHOULDERS, back_texture
 from drapery.style.uv_mapping import box_mapping
 
 _LEFT_WING = ModelBox((-10, 0, 0), (10, 20, 2), (22, 0), grown=1.0)
