@@ -68,7 +68,8 @@ def nearest_of_segments(a: Vector, b: Vector, c: Vector, d: Vector) -> tuple[flo
 
 @borrowing_kernel
 def nearest_of_face(a: Vector, b: Vector, c: Vector, p: Vector) -> Vector:
-    """Barycentric weights of the nearest point of a triangle (Ericson 2005, section 5.1.5)."""
+    """Barycentric weights of the nearest point of a triangle (Ericson 2005, section 5.1.5), which
+    may be a segment or a point: contact can press two of its corners into one place."""
     ab, ac, ap = subtract(b, a), subtract(c, a), subtract(p, a)
     d1, d2 = dot(ab, ap), dot(ac, ap)
     if d1 <= 0 and d2 <= 0:
@@ -78,7 +79,7 @@ def nearest_of_face(a: Vector, b: Vector, c: Vector, p: Vector) -> Vector:
     if d3 >= 0 and d4 <= d3:
         return 0.0, 1.0, 0.0
     vc = d1 * d4 - d3 * d2
-    if vc <= 0 and d1 >= 0 and d3 <= 0:
+    if vc <= 0 and d1 >= 0 and d3 <= 0 and d1 > d3:
         v = d1 / (d1 - d3)
         return 1.0 - v, v, 0.0
     cp = subtract(p, c)
@@ -93,7 +94,7 @@ def nearest_of_face(a: Vector, b: Vector, c: Vector, p: Vector) -> Vector:
     if va <= 0 and d4 >= d3 and d5 >= d6:
         w = (d4 - d3) / ((d4 - d3) + (d5 - d6))
         return 0.0, 1.0 - w, w
-    inverse = 1 / (va + vb + vc)
+    inverse = 1 / max(va + vb + vc, 1e-300)
     return va * inverse, vb * inverse, vc * inverse
 
 
