@@ -14,6 +14,7 @@ import numpy as np
 
 from drapery.cloth import simd
 from drapery.cloth.colliders.vectors import Vector, dot, norm, row, scale, subtract
+from drapery.cloth.contact.box_contact import meet_close_boxes
 from drapery.cloth.contact.box_data import (
     HELD,
     MET,
@@ -56,6 +57,9 @@ MOST_CONTACTS = 32
 `xpbd` are in every substep.)"""
 STRAIN_ROUNDS = 6
 """How often contact is resolved again after springs that are too long were shortened."""
+FREE = 1.0
+"""Cloth that boxes move at the start of a step by more than this part of the distance that it keeps
+does not go back there."""
 TORN, LONG = 3, 4
 """What `resolve` returns beside `MET` and `HELD`: the step shall be made again; a spring is still
 too long."""
@@ -123,10 +127,23 @@ def resolve(work: Any, boxes: Any, itself: Any, limit: Any, careful: int) -> int
         meet_one(work.start, work.end, itself, contact, work.near)
         if not is_long(work.end, limit):
             return MET
-    # The way back would lead into a box that moves.
-    if not boxes_move(work) and go_back(work.start, work.end, limit):
+    # The way back would lead into a box that moves, or in which the cloth begins.
+    stays = not boxes_move(work) and begins_free(work, contact)
+    if stays and go_back(work.start, work.end, limit):
         meet_one(work.start, work.end, itself, contact, work.near)
     return LONG if is_long(work.end, limit) else MET
+
+
+@kernel
+def begins_free(work: Any, contact: Any) -> bool:
+    """Whether boxes leave the cloth nearly where it is at the start of a step, see FREE."""
+    if len(contact.halves) == 0:
+        return True
+    x, far = work.start.copy(), 0.0
+    meet_close_boxes(work.start, x, contact, work.near)
+    for i in range(len(x)):
+        far = max(far, norm(subtract(row(x, i), row(work.start, i))))
+    return bool(far <= FREE * contact.radius)
 
 
 @kernel
