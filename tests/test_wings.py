@@ -118,7 +118,8 @@ def test_both_wings_return_after_a_glide() -> None:
 
     poses = BonePoses(player_bones(PARTS), table)
     dressed.__dict__["wearer"] = replace(dressed.wearer, poses=poses)
-    both, _ = recorded(dressed, [0.0, 1.0, 4.0])
+    with pytest.warns(UserWarning, match="pins or colliders pull cloth 0 apart"):  # it jumps
+        both, _ = recorded(dressed, [0.0, 1.0, 4.0])
     away = np.linalg.norm(both[:, 2] - wings("stand")[0][:, -1], axis=-1)
     assert away.max() < 0.1
     assert np.linalg.norm(both[:, 2] - both[:, 1], axis=-1).max() > 0.5
@@ -154,5 +155,6 @@ def test_cloth_that_begins_in_its_wearer_is_a_fault() -> None:
     check_garment(elytra, 0.2)
     wing = elytra.piece[0]
     inwards = wing.model_copy(update={"turn": (10.0, 180.0, 12.0)})
-    with pytest.raises(OptionError, match=r"left begins \d+\.\d mm inside what it meets; pin it"):
+    refused = pytest.raises(OptionError, match=r"left begins \d+\.\d mm inside what it meets; pin")
+    with pytest.warns(UserWarning, match="pins or colliders pull cloth 0 apart"), refused:
         check_garment(elytra.model_copy(update={"piece": (inwards,)}), 0.1)
