@@ -184,7 +184,7 @@ def compiler_settings() -> str:
         for name, value in sorted(os.environ.items())
         if name.startswith("NUMBA_") and not NOT_ABOUT_CODE.match(name)
     }
-    with suppress(OSError):
+    with suppress(OSError):  # few have such a file
         words[NUMBA_SETTINGS] = Path(NUMBA_SETTINGS).read_bytes().hex()
     versions = [version(name) for name in ("numba", "llvmlite")]
     return f"{ABI} {versions} {processor()} {os.environ.get(SIMD)} {words}"

@@ -53,7 +53,7 @@ def test_a_saved_design_is_restored_completely(library: Library) -> None:
 
 
 def test_files_and_packs_are_not_saved(library: Library) -> None:
-    own = replace(PICTURE, packs=("/a/pack.zip",), texture="/a/cape.png", backend="soft")
+    own = PICTURE.changed(packs=("/a/pack.zip",), texture="/a/cape.png", backend="soft")
     number = library.add(replace(design(), settings=own))
     assert library.get(number).settings == PICTURE
     assert b"/a/" not in library.path.read_bytes()

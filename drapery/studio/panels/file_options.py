@@ -80,7 +80,7 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
         """The options of the file; those of any subject while a text of the page is not valid."""
         try:
             return option_names(request_of(session, choice))
-        except DraperyError:
+        except DraperyError:  # the export says so
             return option_names(ExportRequest(None, Settings(), choice.kind))
 
     def only(name: str) -> AbstractContextManager[None]:
