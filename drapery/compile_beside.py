@@ -27,7 +27,7 @@ def main(words: list[str]) -> None:
     if call is None:
         import_module(f"{words[0]}.__main__").main()
         return
-    from drapery.jit_compiled import compile_kernel
+    from drapery.jit_codegen import compile_kernel
 
     module, name, types, parameters = call
     compile_kernel(getattr(import_module(module), name), types, parameters)

@@ -117,7 +117,7 @@ class EntryPoint(Kernel):
 
     def _new(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> Any:
         _prepare_numba()
-        from drapery.jit_compiled import compile_kernel, types_of
+        from drapery.jit_codegen import compile_kernel, types_of
 
         return compile_kernel(self, types, types_of(arguments))
 
@@ -280,7 +280,7 @@ def expected_call() -> bytes:
     call = _expected.get()
     if call is None or not isinstance(call[0], EntryPoint):
         return b""
-    from drapery.jit_compiled import pickled_call
+    from drapery.jit_codegen import pickled_call
 
     return pickled_call(*call)
 

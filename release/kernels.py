@@ -57,7 +57,7 @@ def recorded_calls() -> list[Call]:
     from drapery.aot.arguments import pack
     from drapery.cloth import grid
     from drapery.jit import EntryPoint
-    from drapery.jit_compiled import types_of
+    from drapery.jit_codegen import types_of
     from drapery.style import cover_crowd, make_shell
 
     found: dict[tuple[str, tuple[str, ...]], Call] = {}
@@ -93,7 +93,7 @@ def compiled(
     """The object file of a kernel with a function that unpacks its arguments; what it is."""
     import llvmlite.binding as llvm
 
-    from drapery.jit_compiled import caller_module, result_type
+    from drapery.jit_codegen import caller_module, result_type
 
     made = call.kernel.dispatcher.overloads[call.signature].fndesc
     about = {"types": call.types, "result": result_type(made.restype)}

@@ -121,7 +121,7 @@ INTERNALS = {
 @pytest.mark.parametrize("owner", INTERNALS, ids=lambda o: getattr(o, "__name__", type(o).__name__))
 def test_numba_and_llvmlite_have_what_kernels_are_made_with(owner):
     """If this fails with new versions: adapt `simd_instructions`, `jit`, `jit_calls`,
-    `jit_compiled`, `jit_compiling`, `jit_runtime` and `user_calls`, or lower the highest versions
+    `jit_codegen`, `jit_compiling`, `jit_runtime` and `user_calls`, or lower the highest versions
     in pyproject.toml."""
     missing = [name for name in INTERNALS[owner].split() if not hasattr(owner, name)]
     assert not missing

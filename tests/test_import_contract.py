@@ -13,7 +13,7 @@ from source_modules import FOLDERS, ROOT, modules
 
 FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
-    *("aot", "compile_beside", "jit_cache", "jit_calls", "jit_compiled", "jit_compiling"),
+    *("aot", "compile_beside", "jit_cache", "jit_calls", "jit_codegen", "jit_compiling"),
     *("jit_objects", "jit_runtime", "kernel_sources"),
     *("lazy", "toml_text", "player_settings"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
@@ -35,16 +35,16 @@ ALLOWED: dict[str, set[str]] = {
     "jit_runtime": set(),
     "jit_cache": {"aot", "jit_objects", "kernel_sources"},
     "jit_calls": set(),
-    "jit_compiled": {"aot", "jit_cache", "jit_objects", "jit_runtime"},
+    "jit_codegen": {"aot", "jit_cache", "jit_objects", "jit_runtime"},
     "jit_compiling": set(),
-    "compile_beside": {"jit_compiled"},
+    "compile_beside": {"jit_codegen"},
     "lazy": set(),
     "jit": {
         "aot",
         "errors",
         "jit_cache",
         "jit_calls",
-        "jit_compiled",
+        "jit_codegen",
         "jit_objects",
         "kernel_sources",
     },
