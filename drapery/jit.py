@@ -14,13 +14,16 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache, cached_property, update_wrapper
 from importlib import import_module
-from typing import Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from drapery.aot.arguments import pack
 from drapery.aot.compiled import CompiledKernel
 from drapery.aot.library import kernels_of
 from drapery.errors import BackendError
 from drapery.kernel_sources import SIMD, Compiled, ImportedByNumba
+
+if TYPE_CHECKING:
+    from drapery.jit_objects import KernelObject
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -115,7 +118,7 @@ class EntryPoint(Kernel):
 
         return load(read_kernel(self, types) or self._new(types, arguments))
 
-    def _new(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> Any:
+    def _new(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> "KernelObject":
         _prepare_numba()
         from drapery.jit_codegen import compile_kernel, types_of
 

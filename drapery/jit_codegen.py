@@ -1,4 +1,4 @@
-"""What numba compiles, as an object that can be stored and loaded without numba.
+"""Object files of what numba compiles, which can be stored and loaded without numba.
 
 numba's own way needs numba in each process, which takes longer to import than a picture takes to
 draw. Here a kernel gets a function that unpacks a block of words, see `drapery.aot.compiled`, and
@@ -12,7 +12,7 @@ from typing import Any
 import llvmlite.binding as llvm
 import numba
 from llvmlite import ir
-from numba.core import types
+from numba.core import types as numba_types
 from numba.core.registry import cpu_target
 
 from drapery.aot.arguments import pack
@@ -24,7 +24,7 @@ from drapery.jit_runtime import add_runtime
 _llvm: Any = llvm
 _numba: Any = numba
 _ir: Any = ir
-_types: Any = types
+_types: Any = numba_types
 _context: Any = cpu_target.target_context
 _SCALARS = {
     _types.none: "none",
@@ -38,14 +38,14 @@ OF_OTHERS = re.compile("NRT_|numba_|_?Py")
 """Names of functions that are in no library of C."""
 
 
-def compile_kernel(entry_point: Any, words: tuple[str, ...], parameters: Any) -> KernelObject:
+def compile_kernel(entry_point: Any, types: tuple[str, ...], parameters: Any) -> KernelObject:
     """The machine code of an entry point, which is stored if another process can use it.
 
-    words: the types of the arguments, see `drapery.aot.arguments`. parameters: the same for numba.
+    types: of the arguments, see `drapery.aot.arguments`. parameters: the same for numba.
     """
     made, is_lasting = _compiled_object(entry_point.dispatcher, parameters)
     if is_lasting:
-        write_kernel(entry_point, words, made)
+        write_kernel(entry_point, types, made)
     return made
 
 

@@ -1,7 +1,7 @@
 """A compiled kernel: its call with a block of words, its result, and its error.
 
 The block begins with the address of an error, then comes the result, then the arguments; see
-`drapery.aot.arguments`. `drapery.jit_objects` makes the function that is called with a block.
+`drapery.aot.arguments`. `drapery.jit_codegen` makes the function that is called with a block.
 """
 
 import ctypes
@@ -66,7 +66,7 @@ def _value(result: Result, words: Iterator[int]) -> Any:
 
 
 def _error_at(address: int) -> BaseException:
-    """The error of a kernel; kernels raise it as numba's compiler was told to."""
+    """The error that a kernel has left at an address."""
     described = _Error.from_address(address)
     kind, arguments, *_ = pickle.loads(ctypes.string_at(described.pickled, described.size))
     error: BaseException = kind(*(arguments or ()))

@@ -126,9 +126,10 @@ def warn_of_strain(cloth: Cloth, before: State, after: State) -> None:
     i, j = cloth.spring_pairs[springs[longest]]
     place = ", ".join(f"{each:.3g}" for each in ends[number, longest].mean(axis=0))
     warnings.warn(
-        f"pins or colliders pull cloth {number} apart: before {after.time:.4g} s an edge was "
-        f"{100 * after.strain:.3g} % over its longest length, now most between particles {i} and "
-        f"{j} at ({place}) m; move them less far apart, or pin fewer particles",
+        f"pins or colliders pull cloth {number} apart: until {after.time:.4g} s an edge was up to "
+        f"{100 * after.strain:.3g} % longer than its limit, and the longest is now between "
+        f"particles {i} and {j} at ({place}) m; move pins and colliders less far, pin fewer "
+        "particles, or make the cloth thinner",
         stacklevel=4,
     )
 

@@ -38,7 +38,7 @@ from drapery.mesh import Array
 
 THINNEST = 1e-4
 """The least distance kept from a surface [m]: on the surface itself normals are not reliable."""
-STRAIN_ROUNDS = 16
+SHORTENING_ROUNDS = 16
 """How often springs that end over the limit are shortened and colliders applied again."""
 
 
@@ -123,7 +123,7 @@ class CollisionWorld:
             if number + 1 < self.rounds and self.attachments is not None:
                 shorten_all(first, last, motion.x, self.attachments, active)
         active[:] = True
-        for _ in range(STRAIN_ROUNDS):
+        for _ in range(SHORTENING_ROUNDS):
             for cloth in np.flatnonzero(active[first:last]) + first:
                 active[cloth] = limit_strain(motion.start[cloth], motion.x[cloth], self.limit)
             if not active[first:last].any():
