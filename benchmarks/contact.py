@@ -5,7 +5,7 @@ triangles of the cloth intersect each other or those of a box (ipctk's exact tes
 particles are in a collider. Then the cost of a step with and without contact is timed, on one
 thread. `--steps` is the number of steps of each case, `--case` chooses cases by a part of their
 name. Times are those of the processor. ipctk comes with
-`pip install drapery[bench]`; only benchmarks use it.
+`pip install ".[bench]"`; only benchmarks use it.
 """
 
 import argparse

@@ -18,7 +18,7 @@ def is_installed(module: str) -> bool:
     """Whether a module of another package is there; if not, a line says what is left out."""
     found = find_spec(module) is not None
     if not found:
-        print(f"{module} is not installed (`pip install drapery[bench]`): left out")
+        print(f'{module} is not installed (`pip install ".[bench]"`): left out')
     return found
 
 

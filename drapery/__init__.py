@@ -13,7 +13,7 @@ are first used.
 """
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from drapery.lazy import lazy_names
 
@@ -41,8 +41,8 @@ if TYPE_CHECKING:
     from drapery.settings import Settings
     from drapery.style.extrusion import extrude
 
-    __version__: str
-    """The version of the installed distribution, such as `0.1.0`."""
+__version__: str = "0.1.0"
+"""The version, which `pyproject.toml` repeats for the distribution `drapery-mc`."""
 
 __all__ = [
     "Animation",
@@ -72,7 +72,7 @@ __all__ = [
     "simulate",
 ]
 
-_get_lazy_name, __dir__ = lazy_names(
+__getattr__, __dir__ = lazy_names(
     __name__,
     {
         "banner.design": ("Banner", "Layer"),
@@ -94,11 +94,3 @@ _get_lazy_name, __dir__ = lazy_names(
         "style.extrusion": ("extrude",),
     },
 )
-
-
-def __getattr__(name: str) -> Any:
-    if name == "__version__":
-        from importlib.metadata import version
-
-        return version("drapery")
-    return _get_lazy_name(name)

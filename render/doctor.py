@@ -22,7 +22,7 @@ ENCODE = (
     "import av; [av.codec.Codec(name, 'w') for name in ('libx264', 'libvpx-vp9')];"
     " print(av.__version__)"
 )
-INSTALL_VIDEO = 'pip install "drapery[video]"'
+INSTALL_VIDEO = 'pip install "drapery-mc[video]"'
 SET_CACHE = "export NUMBA_CACHE_DIR=FOLDER, with a folder that may be written"
 
 

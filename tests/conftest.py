@@ -118,7 +118,7 @@ def drapery(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str])
 def playable() -> Callable[..., Settings]:
     """Settings that a page can play with the kernels that tests build as WebAssembly."""
     for module in ("ziglang", "wasmtime"):
-        pytest.importorskip(module, reason=f"{module} is not installed (drapery[dev])")
+        pytest.importorskip(module, reason=f"{module} is not installed (drapery-mc[dev])")
     from wasm_player import built_module, quick_settings
 
     built_module()

@@ -7,7 +7,6 @@ import subprocess
 import sys
 import time
 import zipfile
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ import pytest
 from conftest import GIVE, Run
 from PIL import Image
 
-from drapery import Banner, DraperyError, animate, draw
+from drapery import Banner, DraperyError, __version__, animate, draw
 from drapery.banner.packs import open_packs
 from drapery.banner.sprites import SHIELD_REGIONS, composite, shield_layers
 from drapery.commands import notices
@@ -33,7 +32,7 @@ def test_render_writes_what_draw_draws(drapery: Run, tmp_path: Path) -> None:
 
 
 def test_the_version_is_that_of_the_installed_package(drapery: Run) -> None:
-    assert drapery("--version") == (0, f"drapery {metadata.version('drapery')}\n", "")
+    assert drapery("--version") == (0, f"drapery {__version__}\n", "")
 
 
 def test_animate_writes_what_animate_draws(drapery: Run, tmp_path: Path) -> None:
@@ -267,10 +266,10 @@ def test_doctor_prints_the_whole_remedy(drapery: Run, monkeypatch: pytest.Monkey
     from drapery.render import doctor
 
     assert render.backend_report is doctor.backend_report  # imported before it is replaced
-    report = [doctor.BackendReport("video", False, "no PyAV", 'pip install "drapery[video]"')]
+    report = [doctor.BackendReport("video", False, "no PyAV", 'pip install "drapery-mc[video]"')]
     monkeypatch.setattr(render, "backend_report", lambda: report)
     code, out, _ = drapery("doctor")
-    assert code == 0 and 'to mend it: pip install "drapery[video]"' in out
+    assert code == 0 and 'to mend it: pip install "drapery-mc[video]"' in out
 
 
 def test_a_variable_that_turns_the_compiler_off_is_named(tmp_path: Path) -> None:

@@ -39,7 +39,7 @@ def needed(*extras: str) -> list[Requirement]:
     found = [*PROJECT["dependencies"], *(line for extra in extras for line in EXTRAS[extra])]
     wanted = []
     for requirement in map(Requirement, found):
-        if requirement.name == "drapery":
+        if requirement.name == PROJECT["name"]:
             wanted += needed(*requirement.extras)
         else:
             wanted.append(requirement)

@@ -4,7 +4,6 @@ import inspect
 import subprocess
 import sys
 from importlib import import_module
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -47,10 +46,6 @@ def test_dir_lists_the_public_names() -> None:
     assert dir(drapery) == sorted(drapery.__all__)
     with pytest.raises(AttributeError, match="has no attribute 'drow'"):
         drapery.drow  # type: ignore[attr-defined] # noqa: B018
-
-
-def test_the_version_is_that_of_the_distribution() -> None:
-    assert drapery.__version__ == version("drapery")
 
 
 def test_names_are_loaded_when_they_are_used() -> None:

@@ -407,7 +407,7 @@ def test_video_without_its_library_says_how_to_get_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(__import__("sys").modules, "av", None)
-    with pytest.raises(BackendError, match=r'pip install "drapery\[video\]"'):
+    with pytest.raises(BackendError, match=r'pip install "drapery-mc\[video\]"'):
         save_animation(square_wandering(), 20, tmp_path / "a.mp4")
 
 

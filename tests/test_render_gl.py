@@ -262,7 +262,7 @@ def test_bad_scenes_are_refused() -> None:
 def test_missing_parts_are_named_with_what_installs_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("PYOPENGL_PLATFORM", raising=False)
     monkeypatch.setattr(gl_platform, "pyrender_installed", lambda: False)
-    with pytest.raises(BackendError, match=r'pip install "drapery\[gl\]"$'):
+    with pytest.raises(BackendError, match=r'pip install "drapery-mc\[gl\]"$'):
         gl_platform.load_pyrender()
     monkeypatch.undo()
     monkeypatch.delenv("PYOPENGL_PLATFORM", raising=False)

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("ziglang", reason="ziglang is not installed (drapery[web-build])")
-pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery[dev])")
+pytest.importorskip("ziglang", reason="ziglang is not installed (drapery-mc[web-build])")
+pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery-mc[dev])")
 
 from test_javascript import NODE, run_node
 from wasm_player import WasmPlayer, built_module

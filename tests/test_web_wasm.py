@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("ziglang", reason="ziglang is not installed (drapery[web-build])")
-pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery[dev])")
+pytest.importorskip("ziglang", reason="ziglang is not installed (drapery-mc[web-build])")
+pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery-mc[dev])")
 
 from wasm_player import WasmPlayer, built_module, quick_settings, white_banner
 
@@ -206,7 +206,7 @@ def test_a_build_without_its_compiler_names_the_extra(
     monkeypatch.setattr(build.importlib.util, "find_spec", lambda name: None)
     assert build.main(["--cache"]) == 1
     message = capsys.readouterr().err
-    assert message == "error: ziglang is not installed; install drapery[web-build]\n"
+    assert message == "error: ziglang is not installed; install drapery-mc[web-build]\n"
 
 
 PLAY = """

@@ -209,7 +209,7 @@ def _distributed() -> Any:
     try:
         import distributed
     except ImportError:
-        raise BackendError('Dask is missing; pip install "drapery[cluster]"') from None
+        raise BackendError('Dask is missing; pip install "drapery-mc[cluster]"') from None
     return distributed
 
 

@@ -14,7 +14,7 @@ from inspect import unwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drapery import Banner
+from drapery import Banner, __version__
 from drapery.errors import PackError
 from drapery.render import backend
 from drapery.settings import OPTIONS, Settings
@@ -103,7 +103,7 @@ def code_version() -> str:
     for package in ("drapery", "drapery.render", "drapery.assets"):
         for name, file in sorted(_own_files(files(package), package)):
             whole.update(name.encode() + hashlib.sha256(file.read_bytes()).digest())
-    return f"{version('drapery')}+{whole.hexdigest()[:16]}"
+    return f"{__version__}+{whole.hexdigest()[:16]}"
 
 
 def added_code(

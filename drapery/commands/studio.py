@@ -41,7 +41,7 @@ def run(
         from drapery.studio.session import StudioConfig
     except ImportError as error:
         raise BackendError(
-            f'the studio needs an extra ({error.name}); pip install "drapery[studio]"'
+            f'the studio needs an extra ({error.name}); pip install "drapery-mc[studio]"'
         ) from None
     from drapery.packs import open_packs
 

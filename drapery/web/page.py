@@ -9,7 +9,7 @@ from itertools import product
 from pathlib import Path
 from typing import Literal
 
-from drapery import draw
+from drapery import __version__, draw
 from drapery.banner import PATTERN_NAMES, Banner, alt_text, write_banner
 from drapery.errors import DraperyError, OptionError
 from drapery.garments import (
@@ -190,12 +190,10 @@ def seen_settings(garment: Garment, settings: Settings, size: tuple[int, int] = 
 
 
 def _package() -> dict[str, object]:
-    from importlib.metadata import version
-
     files = ["*.bin", MODULE, "drapery-banner.d.ts"]
     return {
         "name": "drapery-banner",
-        "version": version("drapery"),
+        "version": __version__,
         "description": "Minecraft banners of live cloth as a custom element.",
         "license": "MIT AND CC0-1.0",
         "type": "module",

@@ -82,7 +82,7 @@ def _load_av() -> Any:
         import av
     except ImportError as error:
         raise BackendError(
-            'video needs PyAV, which is not installed: pip install "drapery[video]"'
+            'video needs PyAV, which is not installed: pip install "drapery-mc[video]"'
         ) from error
     return av
 

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 from drapery.errors import BackendError
 
-INSTALL_PYRENDER = 'pip install "drapery[gl]"'
+INSTALL_PYRENDER = 'pip install "drapery-mc[gl]"'
 INSTALL_GL = "apt-get install -y --no-install-recommends libegl1 libgl1"
 INSTALL_OSMESA = "apt-get install -y --no-install-recommends libosmesa6"
 REMEDIES = {"egl": INSTALL_GL, "osmesa": INSTALL_OSMESA}

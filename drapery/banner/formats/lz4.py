@@ -50,7 +50,7 @@ def _decompress(data: bytes, size: int, where: str) -> bytes:
         from lz4 import block
     except ImportError:
         raise DesignError(
-            f'{where}: packed with LZ4, which needs an extra; pip install "drapery[lz4]"'
+            f'{where}: packed with LZ4, which needs an extra; pip install "drapery-mc[lz4]"'
         ) from None
     try:
         piece: bytes = block.decompress(data, uncompressed_size=size)

@@ -34,7 +34,7 @@ poses a player, with a cape that is stepped as a banner is."""
 def build_module(path: Path, methods: Sequence[str] = tuple(METHODS)) -> None:
     """Build the module for some methods and write it to a path. Raises WasmBuildError."""
     if importlib.util.find_spec("ziglang") is None:
-        raise WasmBuildError("ziglang is not installed; install drapery[web-build]")
+        raise WasmBuildError("ziglang is not installed; install drapery-mc[web-build]")
     with tempfile.TemporaryDirectory() as folder:
         # Code that is optimised for 64-bit pointers, or comes from the cache, is of no use here.
         own = {"NUMBA_OPT": "0", "NUMBA_CACHE_DIR": folder, "NUMBA_NUM_THREADS": "1"}

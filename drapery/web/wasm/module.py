@@ -52,7 +52,7 @@ def read_module() -> bytes:
             return path.read_bytes()
     raise WasmBuildError(
         "the WebAssembly module of the kernels is not built; "
-        "run python -m drapery.web.wasm.build (needs drapery[web-build])"
+        "run python -m drapery.web.wasm.build (needs drapery-mc[web-build])"
     )
 
 
