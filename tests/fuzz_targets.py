@@ -25,6 +25,7 @@ import page_reader
 from fuzzing import Target
 
 from drapery import Banner, cli
+from drapery.banner import GIVE_FORMS, ItemDetails, write_give
 from drapery.banner.formats import FORMS, datapack, parse_banner, structure
 from drapery.batch.manifest import ManifestError, read_manifest
 from drapery.errors import DesignError, DraperyError, OptionError
@@ -107,6 +108,7 @@ def other_targets() -> dict[str, Target]:
         )
     if page_reader.NODE is not None:
         found["page"] = page_target()
+        found["designer"] = designer_target()
     return found
 
 
@@ -172,6 +174,15 @@ def page_target() -> Target:
     return Target(_read_in_page, samples, _mutate_for_page)
 
 
+def designer_target() -> Target:
+    """The designer's reader of pasted texts, which it writes again as commands of all versions."""
+    details = ItemDetails("@a", 3, {"text": "Flag", "bold": True}, ("a line",))
+    designs = [GIVE, *(FORMS[form].example for form in (*PAGE_FORMS, "summon", "bedrock"))]
+    samples = [*designs, *(f"https://example.com/#{quote(each)}" for each in designs)]
+    samples += [write_give(Banner("red"), form, details) for form in GIVE_FORMS]
+    return Target(_read_in_designer, samples, fuzzing.mutate_text)
+
+
 PAGE_FORMS = (
     *("shorthand", "json", "give", "give-legacy", "give-1.12", "item", "setblock"),
     "loom-assistant",
@@ -184,6 +195,22 @@ def _mutate_for_page(rng: random.Random, samples: Sequence[str]) -> str:
     what, _, text = rng.choice(samples).partition(" ")
     same = [other.partition(" ")[2] for other in samples if other.startswith(what)]
     return f"{what} {fuzzing.mutate_text(rng, [text, *same] if rng.random() < 0.5 else [text], 2)}"
+
+
+def _read_in_designer(given: str) -> Iterable[Any]:
+    """What the designer reads, whose texts Python reads again as the same design."""
+    answer = page_reader.read_in_page("pasted", given)
+    assert answer.seconds < 1, f"{answer.seconds:.2f} s in the page"
+    if answer.error:
+        assert answer.error == "DesignError", answer
+        raise DesignError(answer.message)
+    design = answer.found["design"]
+    with warnings.catch_warnings(action="ignore"):
+        with contextlib.suppress(DraperyError):
+            assert page_reader.plain(parse_banner(given)) == design, answer
+        for text in filter(None, answer.found["texts"]):
+            assert page_reader.plain(parse_banner(text)) == design, (answer, text)
+    return [design]
 
 
 def _read_in_page(given: str) -> Iterable[Any]:

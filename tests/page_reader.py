@@ -1,4 +1,4 @@
-"""The component's reader of designs under node, which reads one text after another."""
+"""The readers and writers of the component and the designer under node, one text after another."""
 
 import atexit
 import json
@@ -18,6 +18,9 @@ import { createInterface } from "node:readline";
 import { nameOf, numberOf } from "component/attributes.js";
 import { readDesign } from "component/design.js";
 import { TABLES } from "component/tables.js";
+import { writeCommand } from "component/../designer/commands.js";
+import { shownOf, writeHash } from "component/../designer/model.js";
+import { readPasted } from "component/../designer/pasted.js";
 
 // As the page that `drapery web` writes reads its address.
 function readHash(hash) {
@@ -28,7 +31,23 @@ function readHash(hash) {
     throw error;
   }
 }
+// A pasted text as the commands of all versions that can hold it.
+function rewritten(text) {
+  const { work, left } = readPasted(text);
+  const written = (version) => {
+    try {
+      return writeCommand(version, shownOf(work), work.item);
+    } catch (error) {
+      if (error.constructor.name === "FormError") return null;
+      throw error;
+    }
+  };
+  const versions = ["1.21.5", "1.20.5", "1.13", "1.8", "bedrock"];
+  const design = shownOf(work);
+  return { design, texts: versions.map(written), hash: writeHash(design), left };
+}
 const READERS = {
+  pasted: rewritten,
   design: readDesign,
   hash: readHash,
   kind: (text) => nameOf("kind", text, TABLES.placements),
@@ -80,7 +99,8 @@ def _end(node: "subprocess.Popen[str]") -> None:
 
 
 def read_in_page(what: str, text: str) -> Answer:
-    """Read a text as a `design`, a `hash`, or the attribute `kind`, `wind` or `direction`.
+    """Read a text as a `design`, a `hash`, an attribute `kind`, `wind` or `direction`, or as what
+    is `pasted` into the designer.
 
     The process ends with this one.
     """

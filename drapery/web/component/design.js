@@ -6,14 +6,29 @@ import { TABLES } from "./tables.js";
 
 export class DesignError extends Error {}
 
+// A word of SNBT that is no string, as it was written.
+export class Token {
+  constructor(text) {
+    this.text = text;
+  }
+
+  toJSON() {
+    return /^(true|false|[01]b)$/i.test(this.text) ? /^(true|1b)$/i.test(this.text) : meaning(this.text);
+  }
+}
+
 const COMMAND = /^\/?(minecraft:)?(give|item|replaceitem|setblock)\s/i;
+const SUMMON = /^\/?(minecraft:)?summon\s/i;
 const FORMS = [
   [/^(https?:\/\/|[\w-]+(\.[\w-]+)+\/)\S+$/i, fromLink],
   [/^[{[]/, fromTree],
+  [SUMMON, fromEntity],
   [/^\/|[{}[\]"@=]/, fromCommand],
   [COMMAND, fromCommand],
   [/^/, fromShorthand],
 ];
+const LAYER = /(?<!base_|banner_)(colou?r|pattern)["']?\s*[:=]/i;
+const NAMING = /^(minecraft:)?(custom_name|item_name|lore|display)$/;
 const MODES = /^(\d+|destroy|hollow|keep|outline|replace|strict)$/;
 const CUSTOM = /^(?!minecraft:)(?!.{257})(?!(.*[:/])?\.{0,2}([:/]|$))[a-z0-9_.-]+:[a-z0-9_./-]+$/;
 
@@ -25,10 +40,17 @@ export function readDesign(text) {
   const [, read] = FORMS.find(([form]) => form.test(trimmed));
   const design = { kind: "banner", ...read(trimmed) };
   // A misspelt key would leave its layers out.
-  const hasLayers = /(?<!base_|banner_)(colou?r|pattern)["']?\s*[:=]/i.test(trimmed);
-  if (hasLayers && !design.layers.length) fail("the text has layers, but not where a design has them; check its keys");
+  const isLost = !design.layers.length && LAYER.test(trimmed) && LAYER.test(withoutNames(trimmed));
+  if (isLost) fail("the text has layers, but not where a design has them; check its keys");
   if (design.layers.length > TABLES.maxLayers) fail(`${design.layers.length} layers; use at most ${TABLES.maxLayers}`);
   return design;
+}
+
+// A text of an item without its name and lore, whose words may have colours.
+function withoutNames(text) {
+  if (!/[{[]/.test(text) || SUMMON.test(text)) return text;
+  const tree = /^[{[]/.test(text) ? wholeTree(text) : commandParts(text).parts;
+  return JSON.stringify(tree, (key, value) => (NAMING.test(key) ? undefined : value));
 }
 
 function fail(message) {
@@ -99,7 +121,8 @@ const ESCAPE = /\\(?:x([\da-f]{2})|u([\da-f]{4})|(.))/gis;
 const ESCAPED = { b: "\b", s: " ", t: "\t", n: "\n", f: "\f", r: "\r" };
 
 // The parts of a text, each after its first token: compounds, components in brackets, and words.
-function partsOf(text) {
+// mean: what a token stands for.
+function partsOf(text, mean = meaning) {
   const tokens = text.match(TOKEN) ?? [];
   if (tokens.some((token) => /^["']/.test(token) && !CLOSED.test(token))) fail("a quote is not closed; close it");
   let at = 0;
@@ -110,7 +133,7 @@ function partsOf(text) {
     if (take("{")) return Object.fromEntries(entries("}"));
     if (take("[")) return entries("]").map(([, value]) => value);
     if (!tokens[at] || /^[{}[\],:;=]/.test(tokens[at])) fail(`expected a name or a value at word ${at + 1}`);
-    return meaning(tokens[at++]);
+    return mean(tokens[at++]);
   }
 
   // Names and values up to a bracket: `a:1,b:c:d}`, `a:b=1,!c]`, and of lists `1,2]`, `I;1]`, `0:{}]`.
@@ -173,16 +196,30 @@ function layersOf(list = [], inverted = false) {
   }));
 }
 
-function fromTree(text) {
-  const [[first, tree], more] = partsOf(text);
+// The compound that is all of a text.
+function wholeTree(text, mean) {
+  const [[first, tree], more] = partsOf(text, mean);
   if (first !== "{" || more) fail("the text is not one compound; give one banner as {…}");
+  return tree;
+}
+
+function fromTree(text) {
+  const tree = wholeTree(text);
   const id = pick(tree, "id", "Name");
   if (id !== undefined || pick(tree, "base", "banner_color", "layers") === undefined)
-    return fromItem(id, pick(tree, "components"), tree.tag, tree.Damage);
+    return isItem(tree) ? fromItem(id, pick(tree, "components"), tree.tag, tree.Damage) : fromItem(id, undefined, blockOf(id, tree));
   const { kind = "banner" } = tree;
   if (!["banner", "shield"].includes(kind)) fail(`kind ${quoted(kind)}; use 'banner' or 'shield'`);
   const base = pick(tree, "banner_color", "base") ?? fail('the text has no "base"; give its dye, as in {"base": "red", "layers": []}');
   return { base: dyeOf(base), layers: layersOf(tree.layers), kind };
+}
+
+const isItem = (tree) => ["count", "Count", "Damage", "components", "tag"].some((key) => Object.hasOwn(tree, key));
+
+// A banner as a block up to 1.12 and in Bedrock, whose id names no dye, is its own tag.
+function blockOf(id, tree) {
+  const [kind, dye] = itemOf(id) ?? [];
+  return kind === "banner" && !dye && pick(tree, "Base") !== undefined ? tree : undefined;
 }
 
 // An item with its components or its tag. data: its damage value, up to Java 1.12.
@@ -203,11 +240,7 @@ function fromItem(id, components, tag = {}, data = undefined) {
 // Commands, and the arguments of items and blocks
 
 function fromCommand(text) {
-  const [start] = [...text.matchAll(/(?<=^|\s)[^\s[{]+/g)].filter(([word]) => itemOf(word));
-  if (!start) fail("no banner in the command; it needs an item such as minecraft:white_banner[banner_patterns=[…]]");
-  if (start.index && !COMMAND.test(text)) fail(`${quoted(text)}: not a command that makes a banner; use /give`);
-  const [id, rest] = [start[0], text.slice(start.index + start[0].length)];
-  const parts = partsOf(rest);
+  const { id, rest, parts } = commandParts(text);
   const words = parts.filter(([first]) => !/^[[{]/.test(first)).map(([, word]) => word);
   const strange = words.find((word) => !MODES.test(word));
   if (strange !== undefined) fail(`unexpected ${quoted(strange)} after the item; write layers in its brackets`);
@@ -215,6 +248,58 @@ function fromCommand(text) {
   const [kind, dye] = itemOf(id);
   const isOld = kind === "banner" && !dye; // its brackets have the state of a block
   return fromItem(id, tag || isOld ? undefined : components, tag, /^\s+\d/.test(rest) ? Number(words[1] ?? 0) : undefined);
+}
+
+// The id of the item or block that a command makes, what stands after it, and the parts of that.
+function commandParts(text, mean) {
+  const [start] = [...text.matchAll(/(?<=^|\s)[^\s[{]+/g)].filter(([word]) => itemOf(word));
+  if (!start) fail("no banner in the command; it needs an item such as minecraft:white_banner[banner_patterns=[…]]");
+  if (start.index && !COMMAND.test(text)) fail(`${quoted(text)}: not a command that makes a banner; use /give`);
+  const rest = text.slice(start.index + start[0].length);
+  return { id: start[0], rest, parts: partsOf(rest, mean) };
+}
+
+// The banner that an entity holds: `/summon item_frame ~ ~ ~ {Item:{id:"minecraft:red_banner"}}`
+function fromEntity(text) {
+  const [, name, tree] = /^\S+\s+([^\s{]+)[^{]*(\{.*)$/s.exec(text) ?? fail("the entity holds no banner; write its data in {…}");
+  const items = heldItems(wholeTree(tree));
+  const isOld = /[A-Z]/.test(name) || items.some(({ Damage }) => Damage !== undefined) || /[{,]\s*"?Equipment"?\s*:/.test(tree);
+  const found = items.map((item) => {
+    const damage = isOld && itemOf(pick(item, "id", "Name"))[0] === "shield" ? 0 : item.Damage;
+    return fromItem(pick(item, "id", "Name"), pick(item, "components"), item.tag, damage);
+  });
+  if (!found.length) fail("the entity holds no banner");
+  if (new Set(found.map((each) => JSON.stringify(each))).size > 1) fail(`${found.length} banners that differ; give the command of one`);
+  return found[0];
+}
+
+// The items of a tree that are banners, or shields with a design.
+function heldItems(tree) {
+  if (Array.isArray(tree)) return tree.flatMap(heldItems);
+  if (tree === null || typeof tree !== "object") return [];
+  const id = pick(tree, "id") ?? (isItem(tree) ? pick(tree, "Name") : undefined);
+  const [kind, dye] = itemOf(id) ?? [];
+  const outer = pick(tree, "components") ?? tree.tag?.BlockEntityTag ?? {};
+  const isDesign = kind === "shield" ? pick(outer, "banner_patterns", "base_color", "Base", "Patterns") !== undefined : kind && (dye || isItem(tree));
+  return [...(isDesign ? [tree] : []), ...Object.values(tree).flatMap(heldItems)];
+}
+
+// What a text says of its item beside the design, its numbers as Tokens: the tree of its components or
+// of its tag, who gets it, and how many. Throws DesignError; null for texts without an item.
+export function readItem(text) {
+  const trimmed = text.trim();
+  if (SUMMON.test(trimmed) || /^https?:/i.test(trimmed)) return null;
+  const keep = (token) => (/^["']/.test(token) || (!NUMBER.test(token) && !/^(true|false)$/.test(token)) ? meaning(token) : new Token(token));
+  if (/^\{/.test(trimmed)) {
+    const tree = wholeTree(trimmed, keep);
+    return { components: pick(tree, "components") ?? {}, tag: tree.tag ?? {}, count: Number(pick(tree, "count", "Count")?.toJSON() ?? 1) };
+  }
+  if (!/^\/|[{}[\]"@=]/.test(trimmed) && !COMMAND.test(trimmed)) return null;
+  const { parts } = commandParts(trimmed, keep);
+  const { "[": components = {}, "{": tag = {} } = Object.fromEntries(parts);
+  const [target] = /(?<=^\/?(?:minecraft:)?give\s+)(@\w\[[^\]]*\]|\S+)/i.exec(trimmed) ?? ["@p"];
+  const counts = parts.filter(([first]) => /^\d{1,9}$/.test(first)).map(([first]) => Number(first));
+  return { components, tag, count: counts[0] ?? 1, target };
 }
 
 // Links of editors
