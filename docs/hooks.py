@@ -1,29 +1,21 @@
-"""What the site's builder adds to the pages: tables of options and commands, links, and llms.txt.
-
-A page writes `<!-- table: NAME -->` where a table of `TABLES` comes.
-"""
+"""What the site's builder adds: the reference of Python, live cloth, links, llms.txt."""
 
 import logging
 import re
 import shutil
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-import typer.main
+from python_names import copy_sources
 
-from drapery.commands.app import command_line
-from drapery.file_formats import FORMATS, KIND_NAMES, MAX_FPS
-from drapery.option import Option
-from drapery.packs import PACK_FORMATS
-from drapery.player_settings import PLAYER_OPTIONS
-from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
+from drapery.settings import Settings
 from drapery.web.wasm.module import module_places
 
 ROOT = Path(__file__).resolve().parent.parent
 GALLERY = "live-gallery-page.html"
-ALPHA = {"full": "half too", "bit": "whole only", "none": "none"}
-AUDIENCES = {"anyone": "yes", "local": "no", "python": "Python only"}
+PYTHON_NAMES = re.compile(r"<!-- begin: python ([\w.]+) -->\n(?s:.*?)<!-- end: python \1 -->")
+"""What a checkout shows of a module; mkdocstrings shows more."""
 pages: dict[str, tuple[str, str]] = {}
 """The title and the Markdown of each page, by its path."""
 
@@ -35,9 +27,7 @@ def on_startup(**_: Any) -> None:
     """
     copy = ROOT / "build" / "api" / "drapery"
     shutil.rmtree(copy, ignore_errors=True)
-    sources = shutil.ignore_patterns("__pycache__", "*.png", "*.js", "*.wasm")
-    shutil.copytree(ROOT / "drapery", copy, ignore=sources)
-    shutil.copytree(ROOT / "render", copy / "render", ignore=sources)
+    copy_sources(copy)
 
 
 def on_config(config: Any) -> None:
@@ -56,8 +46,9 @@ def _has_kernels() -> bool:
 
 
 def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
-    """The page with its tables, and with links to files that are not on the site as plain text."""
-    text = re.sub(r"<!-- table: ([\w-]+) -->", lambda found: TABLES[found[1]](), markdown)
+    """The page with the reference of a module; links that lead out of the site are text."""
+    text = PYTHON_NAMES.sub(r"::: \1\n", markdown)
+    text = text.replace("<!-- live gallery -->", _live_gallery())
     text = re.sub(r"\[([^]]+)\]\((?:\.\./)+(?!docs/)([\w./-]+)\)", _outside(page, config), text)
     pages[page.file.src_uri] = page.title, text
     return text
@@ -100,28 +91,6 @@ def _outside(page: Any, config: Any) -> Callable[[re.Match[str]], str]:
     return replace
 
 
-def _options(table: Mapping[str, Option]) -> str:
-    lines = ["| option | meaning | default | over HTTP |", "|---|---|---|---|"]
-    for name, option in table.items():
-        flag = "" if option.audience == "python" else f"`{option.command_flag}`"
-        names = flag if flag == f"`--{name.replace('_', '-')}`" else f"{flag} `{name}`".strip()
-        text = option.to_text(option.default)
-        default = option.default_text or (f"`{text}`" if text else "none")
-        cells = names, option.describe(), default, AUDIENCES[option.audience]
-        lines.append(f"| {' | '.join(map(_cell, cells))} |")
-    return "\n".join(lines) + "\n"
-
-
-def _garments() -> str:
-    """A section of each garment: its picture and its file."""
-    folder = ROOT / "drapery" / "garments" / "files"
-    return "\n".join(
-        f"## {path.stem}\n\n![{path.stem}](../pictures/garments/{path.stem}.png)\n\n"
-        f"```toml\n{path.read_text(encoding='utf-8')}```\n"
-        for path in sorted(folder.glob("*.toml"))
-    )
-
-
 def _live_gallery() -> str:
     """The page of `drapery web --gallery`, in a frame."""
     if not _has_kernels():
@@ -129,90 +98,3 @@ def _live_gallery() -> str:
             "This site was built without the kernels of the element, so the gallery is missing.\n"
         )
     return f'<iframe class="gallery" src="{GALLERY}" title="Gallery of live cloth"></iframe>\n'
-
-
-def commands() -> str:
-    """A table of all commands, and a section of each with its options."""
-    sections = list(_command("drapery", typer.main.get_command(command_line())))
-    found = re.findall(r"(?m)^## (.+)\n\n(.+?)(?:\n|$)", "\n".join(sections))
-    rows = [f"| [`{name}`](#{name.replace(' ', '-')}) | {_cell(text)} |" for name, text in found]
-    return "\n".join(["| command | what it does |", "|---|---|", *rows, "", *sections])
-
-
-def _command(path: str, command: Any) -> Iterator[str]:
-    """A heading, the help and the options of a command or of its subcommands."""
-    if hasattr(command, "commands"):
-        for name, inner in command.commands.items():
-            yield from _command(f"{path} {name}", inner)
-        return
-    own = [p for p in command.params if not _FLAGS.intersection(p.opts)]
-    own.sort(key=lambda p: p.opts[0].startswith("-"))  # arguments come first
-    rows = [_row(p) for p in own if p.name != "help"]
-    yield f"## {path}\n\n{command.help}\n"
-    if rows:
-        yield "| option | meaning |\n|---|---|\n" + "\n".join(rows) + "\n"
-    if flags := [f"`{p.opts[0]}`" for p in command.params if _FLAGS.intersection(p.opts)]:
-        yield f"[Options of a picture](options.md): {', '.join(flags)}.\n"
-
-
-def _row(parameter: Any) -> str:
-    flags = ", ".join(f"`{flag}`" for flag in parameter.opts if flag.startswith("-"))
-    name = flags or f"`{parameter.metavar or parameter.name.upper()}`"
-    return f"| {name} | {_cell(parameter.help or '')} |"
-
-
-def _pack_formats() -> str:
-    """A table of the formats of packs, the newest first."""
-    lines = ["| format | game | since | what changed |", "|---|---|---|---|"]
-    for each in reversed(PACK_FORMATS):
-        number = f"{each.number}.{each.minor}" if each.minor else str(each.number)
-        lines.append(f"| {number} | {each.game} | {each.date} | {_cell(each.changed)} |")
-    return "\n".join(lines) + "\n"
-
-
-def _file_formats() -> str:
-    """A table of the formats of files that are written, and of those that are only read."""
-    lines = [
-        "| format | ending | holds | transparency | limits | needs | contents |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    for each in FORMATS:
-        if not each.kinds:
-            continue
-        pixels = {"still", "loop"}.intersection(each.kinds)
-        limits = [f"{each.max_side} pixels a side"] if each.max_side else []
-        limits += [f"{each.max_fps} frames/s"] if each.max_fps < MAX_FPS else []
-        cells = (
-            each.name,
-            ", ".join(f"`{ending}`" for ending in each.endings),
-            ", ".join(KIND_NAMES[kind] for kind in each.kinds),
-            ALPHA[each.alpha] if pixels else "",
-            ", ".join(limits),
-            f"`{each.extra}`" if each.extra else "",
-            each.about,
-        )
-        lines.append(f"| {' | '.join(map(_cell, cells))} |")
-    read = [f"{each.name} (`{'`, `'.join(each.endings)}`)" for each in FORMATS if not each.kinds]
-    return "\n".join(lines) + f"\n\nAlso read, where pictures are compared: {', '.join(read)}.\n"
-
-
-def _cell(text: str) -> str:
-    return text.replace("|", "\\|")
-
-
-_FLAGS = {
-    option.command_flag
-    for table in (OPTIONS, LOOP_OPTIONS, PLAYER_OPTIONS)
-    for option in table.values()
-    if option.audience != "python"
-}
-TABLES: dict[str, Callable[[], str]] = {
-    "options": lambda: _options(OPTIONS),
-    "loop-options": lambda: _options(LOOP_OPTIONS),
-    "player-options": lambda: _options(PLAYER_OPTIONS),
-    "commands": commands,
-    "garments": _garments,
-    "live-gallery": _live_gallery,
-    "pack-formats": _pack_formats,
-    "file-formats": _file_formats,
-}
