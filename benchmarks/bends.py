@@ -53,7 +53,7 @@ def shifts_of(scene: Scene, u: Array, v: Array) -> Array:
     points = LinearNDInterpolator(places, mesh.positions[used])(u, v)
     view = PhotoView(np.zeros((1, 1, 3), np.uint8), flag_corners(scene))
     x, y = pixels_of(scene.camera, points).T
-    across, down, scale = (row[0] * x + row[1] * y + row[2] for row in np.linalg.inv(view._map))
+    across, down, scale = (row[0] * x + row[1] * y + row[2] for row in np.linalg.inv(view.to_photo))
     return np.stack([(across / scale - u) * 20, (down / scale - v) * 40])
 
 

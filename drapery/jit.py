@@ -34,7 +34,7 @@ REGISTER = 64
 DISABLE_JIT = "NUMBA_DISABLE_JIT"
 """The variable of the environment that turns numba's compiler off."""
 
-_declarations: list[Callable[[], Any]] = []
+declarations: list[Callable[[], Any]] = []
 """What tells numba of types and instructions, before the first kernel that uses them."""
 _lock = threading.RLock()
 _expected: ContextVar[tuple[Any, tuple[Any, ...]] | None] = ContextVar("_expected", default=None)
@@ -59,7 +59,7 @@ class Kernel(Compiled):
         if self._made is None:
             with _lock:
                 if self._made is None:
-                    _prepare_numba()
+                    prepare_numba()
                     made = self._make()
                     made.is_inner = self.is_inner
                     self._made = made
@@ -71,6 +71,11 @@ class Kernel(Compiled):
 
     def _make(self) -> Any:
         return _compiled(self.py_func, self.options)
+
+    def forget(self) -> None:
+        """Drop what was compiled: the next call reads it from the cache, or compiles anew."""
+        self._made = None
+        vars(self).pop("_ready", None)
 
     @property
     def _numba_type_(self) -> Any:
@@ -119,7 +124,7 @@ class EntryPoint(Kernel):
         return load(read_kernel(self, types) or self._new(types, arguments))
 
     def _new(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> "KernelObject":
-        _prepare_numba()
+        prepare_numba()
         from drapery.jit_codegen import compile_kernel, types_of
 
         return compile_kernel(self, types, types_of(arguments))
@@ -133,8 +138,8 @@ class NumbaName(Compiled):
     """A name that kernels use for something that is made when numba is imported."""
 
     def __init__(self, make: Callable[[], Any], *made_of: Any) -> None:
-        self._make, self._made_of = make, made_of
-        _declarations.append(lambda: self._numba_type_)
+        self.make, self._made_of = make, made_of
+        declarations.append(lambda: self._numba_type_)
 
     @property
     def made_of(self) -> tuple[Any, ...]:
@@ -144,7 +149,7 @@ class NumbaName(Compiled):
     def _numba_type_(self) -> Any:
         from numba.core.registry import cpu_target
 
-        made = self._make()
+        made = self.make()
         # Numba asks for this type also while it compiles a function.
         cpu_target.typing_context.refresh()
         cpu_target.target_context.refresh()
@@ -256,12 +261,12 @@ def when_numba_compiles(begin: Callable[[Any], None]) -> Iterator[None]:
     if "numba" in sys.modules:
         listen()
     else:
-        _declarations.append(listen)
+        declarations.append(listen)
     try:
         yield
     finally:
-        if listen in _declarations:
-            _declarations.remove(listen)
+        if listen in declarations:
+            declarations.remove(listen)
         for each in stop:
             each()
 
@@ -288,7 +293,7 @@ def expected_call() -> bytes:
     return pickled_call(*call)
 
 
-def _prepare_numba() -> None:
+def prepare_numba() -> None:
     """What must happen before any kernel is compiled. Called under the lock.
 
     Raises BackendError if the environment turns the compiler off.
@@ -297,5 +302,5 @@ def _prepare_numba() -> None:
         raise BackendError(fault)
     if "drapery.jit_compiling" not in sys.modules:
         _is_imported("drapery.jit_compiling", "kernels take longer to compile")
-    while _declarations:
-        _declarations.pop(0)()
+    while declarations:
+        declarations.pop(0)()

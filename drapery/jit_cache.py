@@ -55,7 +55,7 @@ def kernel_cache_status() -> KernelCacheStatus:
     reasons = []
     for folder, private in cache_folders():
         try:
-            _try_folder(folder, private)
+            try_folder(folder, private)
         except OSError as fault:
             reasons.append(f"{folder}: {fault.strerror or fault}")
         else:
@@ -93,7 +93,7 @@ def _user_cache_folder() -> Path:
     return chosen if chosen.is_absolute() else home / ".cache"
 
 
-def _try_folder(folder: Path, private: bool) -> None:
+def try_folder(folder: Path, private: bool) -> None:
     """Make the folder if it is missing and write a file there. Raises OSError."""
     if private:
         folder.mkdir(mode=0o700, exist_ok=True)

@@ -225,7 +225,7 @@ def function_text(function: FunctionType) -> str:
     They end where its last line of code ends: before a line that is indented no deeper.
     """
     code = function.__code__
-    lines = _lines(code.co_filename)
+    lines = source_lines(code.co_filename)
     first, last = code.co_firstlineno - 1, _last_line(code)
     if first >= len(lines):
         raise _UnknownError(code.co_filename)
@@ -250,7 +250,8 @@ def _last_line(code: CodeType) -> int:
 
 
 @cache
-def _lines(path: str) -> list[str]:
+def source_lines(path: str) -> list[str]:
+    """The lines of a file of sources. Raises _UnknownError."""
     try:
         with Path(path).open(encoding="utf-8") as file:
             return file.read().split("\n")
@@ -261,7 +262,7 @@ def _lines(path: str) -> list[str]:
 @cache
 def _module_text(name: str) -> str:
     spec = find_spec(name)
-    return "\n".join(_lines(str(spec.origin if spec else name)))
+    return "\n".join(source_lines(str(spec.origin if spec else name)))
 
 
 def _imports(name: str) -> dict[str, Any]:
@@ -285,5 +286,5 @@ def _attribute(module: str, name: str) -> Any:
 
 def forget() -> None:
     """Make keys anew, of sources that have changed."""
-    for each in (source_key, _node, _name, function_text, _module_text, _lines):
+    for each in (source_key, _node, _name, function_text, _module_text, source_lines):
         cast(Any, each).cache_clear()

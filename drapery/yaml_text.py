@@ -107,7 +107,7 @@ def _check_events(text: str) -> None:
     depth = repeated = count = documents = 0
     sizes: dict[str, int] = {}
     open_nodes: list[tuple[str | None, int]] = []
-    for event in yaml.parse(text, _BASE):
+    for event in yaml.parse(text, BASE):
         if isinstance(event, yaml.DocumentStartEvent):
             documents += 1
             if documents > 1:
@@ -142,10 +142,11 @@ def _refuse(reason: str, place: Any) -> NoReturn:
     raise _YamlFaultError(reason, place.start_mark)
 
 
-_BASE: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+BASE: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+"""The loader of PyYAML that reads the events: the one in C where it is built."""
 
 
-class _Loader(_BASE):  # type: ignore[misc]
+class _Loader(BASE):  # type: ignore[misc]
     """The safe loader with located lists, short numbers, and texts as keys, none of them twice."""
 
 
@@ -180,7 +181,7 @@ def _key(node: yaml.Node) -> str:
 def _scalar(tag: str) -> Callable[[Any, Any], Any]:
     """PyYAML's reader of such values, whose faults get a place and a text of ours."""
     name = tag.rpartition(":")[2]
-    construct = _BASE.yaml_constructors[tag]
+    construct = BASE.yaml_constructors[tag]
 
     def read(loader: Any, node: Any) -> Any:
         if name in ("int", "float") and len(node.value) > MAX_NUMBER:

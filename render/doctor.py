@@ -51,7 +51,7 @@ def try_backend(name: str) -> str:
     model = make_model(triangle, colour="red", lit=False)
     camera = Camera((0, 0, 5), (0, 0, 0), height=2.0)
     frame = draw_models([model], camera=camera, size=(16, 16), samples=1, backend=name)
-    _check_triangle(frame)
+    check_triangle(frame)
     if name == "soft":
         return "this package's own"
     if name == "pyrender":
@@ -61,7 +61,7 @@ def try_backend(name: str) -> str:
     return f"{backend(name).__module__}"
 
 
-def _check_triangle(frame: Frame) -> None:
+def check_triangle(frame: Frame) -> None:
     """Raise ValueError unless this is a red triangle on nothing, 16 x 16 pixels."""
     pixels = frame.pixels
     if pixels.shape != (16, 16, 4) or tuple(pixels[10, 8]) != (255, 0, 0, 255) or pixels[0, 0, 3]:
@@ -69,14 +69,14 @@ def _check_triangle(frame: Frame) -> None:
 
 
 def _soft() -> BackendReport:
-    works, said = _run(DRAW.format("soft"))
+    works, said = run_program(DRAW.format("soft"))
     detail = f"numba {version('numba')}, the default; {said}" if works else said
     remedy = f"unset {DISABLE_JIT}" if DISABLE_JIT in said else SET_CACHE
     return BackendReport("soft", works, detail, "" if works else remedy)
 
 
 def _pyrender() -> BackendReport:
-    works, said = _run(DRAW_GL)
+    works, said = run_program(DRAW_GL)
     if works:
         return BackendReport("pyrender", True, said, "")
     for remedy in (INSTALL_PYRENDER, *REMEDIES.values()):
@@ -86,19 +86,19 @@ def _pyrender() -> BackendReport:
 
 
 def _added(name: str, package: str) -> BackendReport:
-    works, said = _run(DRAW.format(name))
+    works, said = run_program(DRAW.format(name))
     detail = f"from the package {package}" if works else said
     return BackendReport(name, works, detail, "" if works else f"pip install --upgrade {package}")
 
 
 def _video() -> BackendReport:
-    works, said = _run(ENCODE)
+    works, said = run_program(ENCODE)
     endings = " and ".join(each.ending for each in FORMATS if each.extra == "video")
     detail = f"PyAV {said}, for {endings}" if works else said
     return BackendReport("video", works, detail, "" if works else INSTALL_VIDEO)
 
 
-def _run(program: str) -> tuple[bool, str]:
+def run_program(program: str) -> tuple[bool, str]:
     """Whether a program succeeds in a separate process, and its last line or the reason."""
     try:
         # -P: do not import a checkout in the current folder instead of the installed package.

@@ -1,5 +1,6 @@
 """Work for pools of processes that goes wrong in every way a job can."""
 
+import json
 import os
 import sys
 import time
@@ -8,6 +9,8 @@ from pathlib import Path
 from drapery.banner.design import Banner
 from drapery.batch.jobs import Job, JobResult
 from drapery.settings import Settings
+
+DYES = ("white", "red", "blue", "lime", "black", "pink")
 
 
 def job(name: str, design: str = "white") -> Job:
@@ -54,3 +57,20 @@ def command(version: str, words: list[str]) -> None:
     jobs.code_version = keys.code_version = lambda: version  # type: ignore[assignment]
     sys.argv = ["drapery", *words]
     cli.main()
+
+
+def manifest(path: Path, count: int, **defaults: object) -> Path:
+    """Write a manifest of small pictures."""
+    few = {"size": "16x24", "grid": "2x3", "time": 0.1, **defaults}
+    jobs = [
+        {"name": f"j{n}", "design": f"{DYES[n % 6]} border:{DYES[(n + 1) % 6]}", "seed": n}
+        for n in range(count)
+    ]
+    lines = [{"defaults": few}, *jobs]
+    path.write_text("\n".join(map(json.dumps, lines)), encoding="utf-8")
+    return path
+
+
+def pictures(folder: Path) -> dict[str, bytes]:
+    """The PNG files of a folder, by name."""
+    return {path.name: path.read_bytes() for path in folder.rglob("*.png")}

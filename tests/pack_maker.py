@@ -69,3 +69,11 @@ def zip_pack(path: Path, files: Mapping[str, bytes | str], top: str = "") -> Pat
         for name, data in files.items():
             archive.writestr(top + name, data)
     return path
+
+
+def make_pack(folder: Path) -> Path:
+    """A folder with a white creeper."""
+    (folder / CREEPER).parent.mkdir(parents=True)
+    (folder / META).write_bytes(mcmeta())
+    (folder / CREEPER).write_bytes(plain(255, 255, 255, 255))
+    return folder

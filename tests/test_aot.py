@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+import weakref
 from pathlib import Path
 from typing import NamedTuple
 
@@ -114,7 +115,7 @@ kernels.build(Path(sys.argv[1]), (sys.platform, machine()), [call])
 def built(tmp_path_factory):
     """A library with one kernel."""
     pytest.importorskip("ziglang")
-    if not library._has_registers():
+    if not library.has_registers():
         pytest.skip("the processor has no AVX2, for which libraries are compiled")
     folder = tmp_path_factory.mktemp("aot")
     path = folder / library.library_path().name
@@ -135,11 +136,11 @@ def use(monkeypatch):
 
     def use(path):
         monkeypatch.setattr(library, "library_path", lambda: path)
-        library._library.cache_clear()
+        library.installed_library.cache_clear()
         return library.kernels_of(scaled_sum)
 
     yield use
-    library._library.cache_clear()
+    library.installed_library.cache_clear()
 
 
 def test_a_library_calculates_what_numba_does(built, use):
@@ -236,9 +237,11 @@ def test_a_tuple_that_is_packed_again_has_its_present_words():
 
 
 def test_few_tuples_are_kept_and_none_with_large_arrays():
-    for number in range(100):
-        pack(((number, np.zeros(3)),))
-    large = (np.zeros(arguments_of.MOST_BYTES),)
-    pack((large,))
-    assert len(arguments_of._kept) <= arguments_of.MOST_KEPT
-    assert id(large) not in arguments_of._kept
+    def packed(size):
+        array = np.zeros(size)
+        pack(((size, array),))
+        return weakref.ref(array)
+
+    small = [packed(size) for size in range(1, 101)]
+    assert sum(array() is not None for array in small) == arguments_of.MOST_KEPT
+    assert packed(arguments_of.MOST_BYTES)() is None

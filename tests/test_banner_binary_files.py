@@ -179,7 +179,6 @@ def test_a_region_names_chunk_and_block(tmp_path: Path, kind: int):
     }
 
 
-RED_CHUNK = make.chunk("1.18", {(48, 71, 9): (make.block_id(RED), make.entity(RED))})
 LIME_CHUNK = make.chunk("1.18", {(64, 71, 9): (make.block_id(LIME), make.entity(LIME))})
 
 
@@ -226,24 +225,12 @@ def test_a_chunk_too_large_for_a_region_has_its_own_file(tmp_path: Path):
     path = make.save(tmp_path / "r.0.0.mca", data)
     with pytest.raises(DesignError, match=r"c\.3\.0\.mcc is missing"):
         list(banners_in(path))
-    make.save(tmp_path / "c.3.0.mcc", make.PACKERS[2](make.raw_nbt(RED_CHUNK)))
+    make.save(tmp_path / "c.3.0.mcc", make.PACKERS[2](make.raw_nbt(make.RED_CHUNK)))
     assert [one.banner for one in banners_in(path)] == [RED]
 
 
-def make_world(folder: Path) -> None:
-    region = make.region({(3, 0): RED_CHUNK})
-    make.save(folder / "level.dat", make.nbt_file({"Data": {"Player": {"Item": make.item(LIME)}}}))
-    make.save(folder / "region" / "r.0.0.mca", region)
-    make.save(folder / "region" / "r.-1.0.mca", b"")
-    make.save(folder / "DIM-1" / "region" / "r.0.0.mca", region)
-    make.save(folder / "dimensions" / "a" / "b" / "entities" / "r.0.0.mca", region)
-    make.save(folder / "poi" / "r.0.0.mca", b"not read")
-    make.save(folder / "playerdata" / "x.dat", make.nbt_file({"Inventory": [make.item(SHIELD)]}))
-    make.save(folder / "playerdata" / "x.dat_old", b"not read")
-
-
 def test_a_world_gives_the_banners_of_all_its_dimensions_and_players(tmp_path: Path):
-    make_world(tmp_path)
+    make.make_world(tmp_path)
     block = "chunk 3,0 block 48,71,9"
     assert [(one.where, one.banner) for one in banners_in(tmp_path)] == [
         ("level.dat.Data.Player.Item", LIME),
@@ -255,7 +242,7 @@ def test_a_world_gives_the_banners_of_all_its_dimensions_and_players(tmp_path: P
 
 
 def test_links_out_of_a_world_are_not_followed(tmp_path: Path):
-    make_world(tmp_path / "other")
+    make.make_world(tmp_path / "other")
     world = tmp_path / "world"
     make.save(world / "level.dat", make.nbt_file({"Data": {}}))
     (world / "region").symlink_to(tmp_path / "other" / "region")
@@ -271,7 +258,7 @@ def test_links_out_of_a_world_are_not_followed(tmp_path: Path):
 
 def test_files_are_recognised_by_their_bytes(tmp_path: Path):
     schematic = make.nbt_file(make.schem(3, (6, 4, 7), STANDING))
-    region = make.region({(3, 0): RED_CHUNK})
+    region = make.region({(3, 0): make.RED_CHUNK})
     assert len(list(banners_in(make.save(tmp_path / "one.txt", schematic)))) == 4
     assert len(list(banners_in(make.save(tmp_path / "two.bin", region)))) == 1
     for text in (b"\n/give @p red_banner", b"{}", b"planetminecraft.com/banner/?b=b1f", b""):
@@ -322,7 +309,7 @@ def test_a_chunk_of_nothing_but_banners_is_too_much(
     monkeypatch.setattr("drapery.banner.formats.region.MAX_BANNERS", 20)
     blocks = {(n % 16, n // 16, 0): (make.block_id(RED), make.entity(RED)) for n in range(40)}
     chunk = make.chunk("1.18", blocks)
-    path = make.save(tmp_path / "r.0.0.mca", make.region({(0, 0): chunk, (1, 0): RED_CHUNK}))
+    path = make.save(tmp_path / "r.0.0.mca", make.region({(0, 0): chunk, (1, 0): make.RED_CHUNK}))
     errors: list[DesignError] = []
     assert len(list(banners_in(path, errors.append))) == 21
     assert [str(error) for error in errors] == [
@@ -345,8 +332,8 @@ def test_a_chunk_that_a_thousand_places_list_is_read_once(tmp_path: Path):
 
 @pytest.mark.parametrize("name", ["r.--5.0.mca", "r.-.0.mca", "r.٣.0.mca", "r.²-1.0.mca"])
 def test_regions_of_any_name_are_read(tmp_path: Path, name: str):
-    make_world(tmp_path)
-    path = make.save(tmp_path / "region" / name, make.region({(0, 0): RED_CHUNK}))
+    make.make_world(tmp_path)
+    path = make.save(tmp_path / "region" / name, make.region({(0, 0): make.RED_CHUNK}))
     make.save(tmp_path / "notes.--5.txt", b"x")
     assert [one.banner for one in banners_in(path)] == [RED]
     places = [one.where for one in banners_in(tmp_path)]

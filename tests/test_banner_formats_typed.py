@@ -8,7 +8,7 @@ from conftest import Run
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.formats import parse_banner, parse_banners
-from drapery.banner.formats.languages import Language, _possible, known_languages
+from drapery.banner.formats.languages import Language, known_languages, possible_languages
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.banner.plain import read_design
 from drapery.errors import DesignError
@@ -160,15 +160,15 @@ def test_nothing_is_read_from_an_empty_text():
 def test_the_first_words_of_a_text_tell_its_languages(language: Language):
     """A line in no language was tried in all sixteen, which made long lists slow."""
     starts = [*language.dyes, *language.phrases, f"{language.banner} x", f"x{language.shield}"]
-    assert all(language in _possible(start) for start in starts)
+    assert all(language in possible_languages(start) for start in starts)
     for start in (start for start in starts if "," not in start):
         for text in (start, f" {start}, x:y", f"\n{start}:x", f",\n{start}\nx"):
-            assert language in _possible(text), text
+            assert language in possible_languages(text), text
 
 
 @pytest.mark.parametrize("text", ["", ",;", "some player", "xyzzy:lime", "this is a sentence"])
 def test_a_text_of_no_language_is_tried_in_none(text: str):
-    assert _possible(text) == []
+    assert possible_languages(text) == []
 
 
 @pytest.mark.parametrize(

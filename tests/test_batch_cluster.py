@@ -8,8 +8,8 @@ from types import SimpleNamespace
 
 import psutil
 import pytest
-from test_batch_keys import make_pack
-from test_batch_run import manifest, pictures
+from batch_works import manifest, pictures
+from pack_maker import make_pack
 
 from drapery.batch import artifacts, cluster, jobs
 from drapery.batch.executor import RetryPolicy
@@ -80,7 +80,7 @@ def test_a_worker_of_another_version_refuses() -> None:
 def test_packs_travel_as_the_same_bytes(tmp_path: Path, monkeypatch) -> None:
     folder = SimpleNamespace(name=str(tmp_path / "worker"))
     (tmp_path / "worker").mkdir()
-    monkeypatch.setattr(artifacts, "_temporary_folder", lambda: folder)
+    monkeypatch.setattr(artifacts, "temporary_folder", lambda: folder)
     pack = make_pack(tmp_path / "pack")
     (job,) = jobs.plan(read_manifest(manifest(tmp_path / "m.jsonl", 1, packs="pack")))
     artifact = artifacts.bundle(pack, DigestCache())

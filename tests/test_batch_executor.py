@@ -6,6 +6,7 @@ import time
 from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
+from multiprocessing.context import SpawnProcess
 from pathlib import Path
 
 import psutil
@@ -163,14 +164,14 @@ def test_a_pool_whose_workers_never_start_gives_up_with_the_reason() -> None:
 
 def test_a_system_that_refuses_processes_is_asked_again(monkeypatch) -> None:
     refusals = iter([OSError(11, "Resource temporarily unavailable")] * 2)
-    spawn = ProcessPool._spawn
+    start = SpawnProcess.start
 
-    def refuse(self: ProcessPool):
+    def refuse(self: SpawnProcess) -> None:
         for error in refusals:
             raise error
-        return spawn(self)
+        start(self)
 
-    monkeypatch.setattr(ProcessPool, "_spawn", refuse)
+    monkeypatch.setattr(SpawnProcess, "start", refuse)
     pool = ProcessPool(work, 1, restarts=RetryPolicy(limit=9, pause=0.01))
     try:
         (result,) = _until_results(pool, job("fine"))
@@ -188,7 +189,7 @@ def test_a_worker_runs_where_the_system_has_no_limits(monkeypatch) -> None:
     monkeypatch.setattr(worker.sys, "platform", "win32")
     monkeypatch.delattr(os, "sysconf")
     monkeypatch.setitem(worker.sys.modules, "resource", None)  # an import of it fails
-    worker._limit(1 << 20)
+    worker.limit_memory(1 << 20)
     assert worker.memory_of("self", worker.RESIDENT) == 0
 
 

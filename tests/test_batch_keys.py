@@ -12,7 +12,7 @@ import pytest
 from conftest import GIVE
 from hypothesis import given
 from hypothesis import strategies as st
-from pack_maker import CREEPER, META, mcmeta, plain
+from pack_maker import CREEPER, make_pack, plain
 
 from drapery.banner.design import Banner
 from drapery.batch import keys
@@ -29,13 +29,6 @@ def key(design: str = SHORT, ending: str = ".png", times=(None, None), **options
     return picture_key(
         Banner.parse(design), settings, DigestCache(), ending=ending, seconds=seconds, fps=fps
     )
-
-
-def make_pack(folder: Path) -> Path:
-    (folder / CREEPER).parent.mkdir(parents=True)
-    (folder / META).write_bytes(mcmeta())
-    (folder / CREEPER).write_bytes(plain(255, 255, 255, 255))
-    return folder
 
 
 def test_the_spelling_of_a_design_does_not_count() -> None:
@@ -127,7 +120,7 @@ def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[
         sys.modules.pop("sparkle_code", None)
         shutil.rmtree(tmp_path / "sparkle_code" / "__pycache__", ignore_errors=True)
         importlib.invalidate_caches()
-        keys._code_of.cache_clear()
+        keys.code_of.cache_clear()
 
     yield install
     forget()

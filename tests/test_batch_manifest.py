@@ -13,13 +13,12 @@ from conftest import Run
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
-from test_banner_binary_files import make_world
-from world_maker import LIME, RED, SHIELD
+from world_maker import LIME, RED, SHIELD, make_world
 
 from drapery.banner.design import Banner, Layer
 from drapery.batch.jobs import make_job, plan
 from drapery.batch.keys import DigestCache
-from drapery.batch.manifest import ManifestError, PictureRequest, _numbered, read_manifest
+from drapery.batch.manifest import ManifestError, PictureRequest, numbered, read_manifest
 from drapery.errors import DraperyError, OptionError
 from drapery.garments import find_garment
 from drapery.packs import MemoryPack
@@ -323,7 +322,7 @@ def test_banners_of_a_world_with_alike_places_get_free_numbers() -> None:
     used: dict[str, int] = {}
     requests = read_manifest([{"design": "red", "out": f"{n}.png"} for n in range(5)])
     outs = ("a.png", "A.png", "a-2.png", "a.png", "a-2.png")
-    named = [_numbered(replace(r, out=out), used) for r, out in zip(requests, outs, strict=True)]
+    named = [numbered(replace(r, out=out), used) for r, out in zip(requests, outs, strict=True)]
     assert [r.out for r in named] == ["a.png", "A-2.png", "a-2-2.png", "a-3.png", "a-2-3.png"]
 
 

@@ -1,6 +1,5 @@
 """A run that is killed, starved or disturbed ends, after --resume, as if nothing had been."""
 
-import json
 import os
 import random
 import re
@@ -11,6 +10,7 @@ import subprocess
 import sys
 import time
 from contextlib import closing, suppress
+from dataclasses import replace
 from multiprocessing import get_context
 from multiprocessing.process import BaseProcess
 from pathlib import Path
@@ -18,36 +18,19 @@ from pathlib import Path
 import numpy as np
 import psutil
 import pytest
-from batch_works import command
+from batch_works import command, manifest, pictures
 from conftest import Run
+from pack_maker import make_pack
 from PIL import Image
-from test_batch_keys import make_pack
 
 from drapery import Banner, draw
 from drapery.batch import run_batch
-from drapery.batch.jobs import plan, run_job
+from drapery.batch.jobs import JobResult, plan, run_job
 from drapery.batch.keys import code_version
 from drapery.batch.manifest import read_manifest
 from drapery.batch.results import FILE, ResultsDB
 from drapery.batch.stores import open_store
 from drapery.errors import OptionError, OutputError
-
-DYES = ("white", "red", "blue", "lime", "black", "pink")
-
-
-def manifest(path: Path, count: int, **defaults: object) -> Path:
-    few = {"size": "16x24", "grid": "2x3", "time": 0.1, **defaults}
-    jobs = [
-        {"name": f"j{n}", "design": f"{DYES[n % 6]} border:{DYES[(n + 1) % 6]}", "seed": n}
-        for n in range(count)
-    ]
-    lines = [{"defaults": few}, *jobs]
-    path.write_text("\n".join(map(json.dumps, lines)), encoding="utf-8")
-    return path
-
-
-def pictures(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in folder.rglob("*.png")}
 
 
 def rows(folder: Path) -> list[tuple[object, ...]]:
@@ -300,8 +283,9 @@ def test_damaged_results_are_an_error_with_the_remedy(drapery: Run, tmp_path: Pa
     path, out = manifest(tmp_path / "m.jsonl", 1), tmp_path / "out"
     out.mkdir()
     with ResultsDB(out / FILE) as results:
-        same = ("key", "line 1", "done", None, 1, 0.1, 10)
-        results._write((f"{number:0200d}", *same) for number in range(500))
+        outs = tuple(f"{number:0200d}" for number in range(500))
+        job = replace(plan(read_manifest(path))[0], outs=outs, places=outs)
+        results.record(JobResult(job), tries=1)
     data = bytearray((out / FILE).read_bytes())
     data[8192:20480] = os.urandom(12288)
     (out / FILE).write_bytes(bytes(data))

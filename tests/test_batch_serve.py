@@ -12,10 +12,9 @@ import pytest
 from cost import limited_cost
 from hypothesis import given
 from hypothesis import strategies as st
-from pack_maker import CREEPER, plain
+from pack_maker import CREEPER, make_pack, plain
 from served_pictures import opened, pixels_of
 from starlette.testclient import TestClient
-from test_batch_keys import make_pack
 
 from drapery import Banner, animate, draw
 from drapery.batch.manifest import PictureRequest
@@ -306,10 +305,11 @@ def test_a_rate_lets_a_burst_pass_and_then_one_at_a_time() -> None:
 
 
 def test_a_flood_of_clients_takes_bounded_memory() -> None:
-    rates = RateLimiter(60, clock=lambda: 0.0)
-    for number in range(MAX_CLIENTS + 100):
+    rates = RateLimiter(60, burst=1, clock=lambda: 0.0)
+    assert [rates.wait("first"), rates.wait("first")] == [0, 1.0]
+    for number in range(MAX_CLIENTS):
         rates.wait(str(number))
-    assert len(rates._buckets) == MAX_CLIENTS
+    assert rates.wait("first") == 0, "it is forgotten"
 
 
 def test_too_many_requests_get_the_time_to_ask_again() -> None:

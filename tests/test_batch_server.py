@@ -4,7 +4,6 @@ import re
 import signal
 import socket
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -14,6 +13,7 @@ from typing import Any
 import httpx2 as httpx
 import psutil
 import pytest
+from service_process import service, workers_of
 
 from drapery.errors import OptionError, OutputError
 from drapery.serve import server
@@ -23,43 +23,8 @@ SMALL = "design=red&size=24x32&grid=3x5&time=0.1"
 SLOW = "size=256x256&grid=33x33&seconds=2&fps=20"
 
 
-@contextmanager
-def service(*words: str) -> Iterator[tuple[str, subprocess.Popen[str]]]:
-    """The command `drapery serve` with one worker, and its address."""
-    command = [sys.executable, "-m", "drapery", "serve", "--port", "0", "--workers", "1", *words]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    assert process.stderr is not None
-    reader = None
-    try:
-        line = next(line for line in process.stderr if "listening at" in line)
-        reader = threading.Thread(target=process.stderr.read, daemon=True)
-        reader.start()
-        found = re.search(r"http://127\.0\.0\.1:(\d+)", line)
-        assert found and int(found[1]) > 0, "port 0 is printed as the port that was chosen"
-        yield found[0], process
-    finally:
-        process.kill()
-        process.wait()
-        if reader is not None:
-            reader.join()
-        process.stderr.close()
-
-
 def get(url: str, timeout: float = 30, **more: Any) -> httpx.Response:
     return httpx.get(url, timeout=timeout, trust_env=False, **more)
-
-
-def workers_of(process: subprocess.Popen[str]) -> list[psutil.Process]:
-    with suppress(psutil.NoSuchProcess):
-        family = psutil.Process(process.pid).children()
-        return [p for p in family if "spawn_main" in str(_command(p))]
-    return []
-
-
-def _command(process: psutil.Process) -> list[str]:
-    with suppress(psutil.Error):
-        return process.cmdline()
-    return []
 
 
 @pytest.mark.usefixtures("untraced_processes")

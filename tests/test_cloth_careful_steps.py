@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from contact_cloths import BAR, POLE, UNIT, flag
 
 from drapery.cloth import (
     Box,
@@ -29,7 +30,6 @@ from drapery.cloth.contact.self_contact_data import make_self_contact
 from drapery.cloth.strain import NEVER
 from drapery.jit import entry_point
 from drapery.mesh import Array
-from tests.test_cloth_contact import BAR, POLE, UNIT, flag
 
 APART = Collisions(apart=UNIT)
 

@@ -6,6 +6,7 @@ from typing import Any, get_args
 import numpy as np
 import pytest
 import trimesh
+from contact_cloths import BAR, FLOOR, GROUND, MET, POLE, UNIT, crosses, depth, flag
 
 from drapery.cloth import (
     Box,
@@ -24,7 +25,6 @@ from drapery.cloth import (
     sew,
 )
 from drapery.cloth.colliders import straight
-from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.collisions import boxes_met, resolver
 from drapery.cloth.contact.box_data import COLUMNS, bands_of
 from drapery.cloth.contact.box_depths import line_passes_by
@@ -36,26 +36,6 @@ from drapery.cloth.strain import NEVER
 from drapery.jit import entry_point
 from drapery.mesh import Array
 from drapery.settings import SolverName
-
-UNIT = 1 / 24
-"""A texel of a banner [m]."""
-POLE = Collider(Box(np.array([0, -23, -1.5]) * UNIT, np.array([2, 42, 2]) * UNIT))
-BAR = Collider(Box(np.array([0, -1, -1.5]) * UNIT, np.array([20, 2, 2]) * UNIT))
-FLOOR = Collider(Plane(np.array([0, -1.0, 0]), np.array([0, 1.0, 0])))
-GROUND = Collider(Plane(np.zeros(3), np.array([0, 1.0, 0])))
-MET = Collisions((POLE, BAR, FLOOR), thickness=UNIT)
-
-
-def flag(shape: tuple[int, int]) -> Any:
-    return grid(*shape, 20 * UNIT, 40 * UNIT)
-
-
-def depth(positions: Array, shape: Collider, cloth: Any) -> float:
-    """How deep the particles, and points along all edges of the faces, are in a shape [m]."""
-    corners = positions.astype(float)[cloth.triangles]
-    parts = np.linspace(0, 1, 33)[:, None, None, None]
-    edges = corners + parts * (np.roll(corners, 1, axis=1) - corners)
-    return -float(sample_distances(shape.packed, edges.reshape(-1, 3)).min())
 
 
 @pytest.mark.parametrize("name", get_args(SolverName))
@@ -250,26 +230,6 @@ def test_thin_and_deep_cloth_passes_no_wall_at_any_speed() -> None:
     moving = MovingCloth.begin(cloth, collisions=Collisions((wall,), thickness=1e-3))
     moving = moving.advance((Gravity(), Wind((0, 0, -40.0))), 60)
     assert depth(moving.state.positions[0], wall, cloth) < 1e-6
-
-
-def crosses(positions: Array, triangles: Any) -> bool:
-    """Whether any edge of the triangles passes through another triangle, tested pair by pair."""
-    corners = positions.astype(float)[triangles]
-    for shift in range(3):
-        a, b = corners[:, shift], corners[:, (shift + 1) % 3]
-        for number in range(len(corners)):
-            p, q, r = corners[number]
-            normal = np.cross(q - p, r - p)
-            above, below = ((end - p) @ normal for end in (a, b))
-            through = above * below < 0
-            part = above / np.where(through, above - below, 1.0)
-            at = a + part[:, None] * (b - a)
-            sides = [np.cross(v - u, at - u) @ normal for u, v in ((p, q), (q, r), (r, p))]
-            inside = through & np.logical_and.reduce([side > 0 for side in sides])
-            shared = np.isin(triangles, triangles[number]).any(axis=1)
-            if (inside & ~shared).any():
-                return True
-    return False
 
 
 def test_a_crumpled_cloth_never_passes_through_itself() -> None:

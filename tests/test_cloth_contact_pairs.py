@@ -8,6 +8,7 @@ import numba
 import numpy as np
 import pytest
 import trimesh
+from contact_cloths import GROUND, MET, crosses, flag
 
 from drapery.cloth import (
     Cloth,
@@ -32,7 +33,6 @@ from drapery.cloth.contact.touching_pairs import (
     particle_bounds,
 )
 from drapery.mesh import Array
-from tests.test_cloth_contact import GROUND, MET, crosses, flag
 
 LIMIT = 0.03
 """How near the pairs are that are looked for [m]."""

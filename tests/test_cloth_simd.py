@@ -82,8 +82,8 @@ def test_the_plain_module_has_the_names_of_the_other():
 def plain_name(monkeypatch):
     """A name of a module that does not fit, or of `simd_plain`."""
     jit.fits_numba.cache_clear()
-    monkeypatch.setattr(jit, "_declarations", [])
-    yield lambda module: jit.numba_name(module, "fill", "drapery.cloth.simd_plain")._make()
+    monkeypatch.setattr(jit, "declarations", [])
+    yield lambda module: jit.numba_name(module, "fill", "drapery.cloth.simd_plain").make()
     jit.fits_numba.cache_clear()
 
 

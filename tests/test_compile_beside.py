@@ -83,10 +83,10 @@ def test_a_command_starts_them_when_it_compiles_a_kernel_of_cloth(
     cloth: Any = import_module("drapery.cloth.contact.lanes_contact").resolve
     renderer: Any = import_module("drapery.render.soft.bins").sort_into_tiles
     started: list[tuple[list[str], bytes]] = []
-    monkeypatch.setattr(notices, "_start_beside", lambda *given: started.append(given))
+    monkeypatch.setattr(notices, "start_beside", lambda *given: started.append(given))
     with called_next(cloth, (1,)):
-        notices._say_compiling(cloth.py_func)
-    notices._say_compiling(renderer.py_func)
+        notices.say_compiling(cloth.py_func)
+    notices.say_compiling(renderer.py_func)
     assert [words for words, *_ in started] == [["drapery.render.soft"], []]
     assert b"resolve" in started[1][1]
     assert capsys.readouterr().err.count("happens once and takes up to a minute") == 2

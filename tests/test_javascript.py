@@ -1,13 +1,12 @@
 """The page's JavaScript: its unit tests run, and it agrees with the server on bytes and cameras."""
 
 import json
-import shutil
-import subprocess
 from dataclasses import astuple
 from pathlib import Path
 
 import numpy as np
 import pytest
+from node_program import NODE, run_node
 
 from drapery.render.camera import Camera, clip_matrix
 from drapery.render.flatten import composite_layers
@@ -15,21 +14,10 @@ from drapery.render.materials import make_material_tables
 from drapery.render.scene import Alpha, Material, TextureLayer
 from drapery.web.messages import pack
 
-NODE = shutil.which("node")
 HERE = Path(__file__).parent
 VIEWER = HERE.parent / "drapery" / "web" / "viewer"
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
-
-
-def run_node(*words: str | Path, stdin: str = "") -> str:
-    """What node prints; AssertionError with all its output if it fails."""
-    command = [str(NODE), *map(str, words)]
-    done = subprocess.run(
-        command, input=stdin, cwd=HERE / "js", capture_output=True, text=True, timeout=120
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
 def run_module(script: str, *words: str | Path) -> object:

@@ -35,7 +35,7 @@ import warnings
 from pathlib import Path
 warnings.simplefilter("always")
 from drapery import jit_cache
-jit_cache._try_folder = lambda folder, private: Path("/dev/null/kernels").mkdir()
+jit_cache.try_folder = lambda folder, private: Path("/dev/null/kernels").mkdir()
 from drapery.jit import entry_point, kernel
 
 @entry_point
@@ -153,8 +153,8 @@ def test_a_shared_folder_of_temporary_files_is_not_trusted(tmp_path, monkeypatch
     open_to_all.chmod(0o777)
     if hasattr(os, "getuid"):
         with pytest.raises(PermissionError):
-            jit_cache._try_folder(open_to_all, private=True)
-    jit_cache._try_folder(tmp_path / "own", private=True)
+            jit_cache.try_folder(open_to_all, private=True)
+    jit_cache.try_folder(tmp_path / "own", private=True)
 
 
 def test_kernels_whose_arguments_have_other_fields_are_compiled_again(package, tmp_path):

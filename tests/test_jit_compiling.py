@@ -2,7 +2,6 @@
 results."""
 
 import gc
-import importlib
 import sys
 import threading
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numba import njit
-from numba.core import codegen
+from numba.core import codegen, event
 from numba.core.errors import TypingError
 
 from drapery import jit
@@ -77,8 +76,7 @@ def compiled_here(monkeypatch: pytest.MonkeyPatch) -> None:
         chosen,
         chooses,
     ):
-        monkeypatch.setattr(function, "_made", None)
-        monkeypatch.setitem(vars(function), "_ready", {})
+        function.forget()
 
 
 def libraries(function: Any) -> list[Any]:
@@ -161,17 +159,20 @@ def test_code_is_called_by_address() -> None:
     assert calls(address_of(length, example), np.arange(7.0)) == 7
 
 
-def test_garbage_is_collected_again_afterwards(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_garbage_is_collected_again_afterwards() -> None:
     seen = []
-    module = importlib.import_module("drapery.jit_compiling")
-    finalize = module.KernelLibrary._finalize_final_module
-    monkeypatch.setattr(
-        module.KernelLibrary,
-        "_finalize_final_module",
-        lambda self: (seen.append(gc.isenabled()), finalize(self))[1],
-    )
+
+    class Compilations(event.Listener):
+        def on_start(self, event: event.Event) -> None:
+            seen.append(gc.isenabled())
+
+        def on_end(self, event: event.Event) -> None:
+            pass
+
+    jit.prepare_numba()  # what turns the collector off hears of each compilation first
     assert gc.isenabled()
-    outermost(ROW)
+    with event.install_listener("numba:compile", Compilations()):
+        outermost(ROW)
     assert seen and not any(seen)
     assert gc.isenabled()
     with pytest.raises(TypingError):
@@ -204,10 +205,10 @@ def test_threads_compile_at_the_same_time() -> None:
 def test_where_numba_differs_kernels_are_compiled_as_it_does(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    jit._prepare_numba()
+    jit.prepare_numba()
     monkeypatch.delitem(sys.modules, "drapery.jit_compiling")
     monkeypatch.delattr(codegen.CPUCodeLibrary, "_optimize_functions")
     with pytest.warns(
         UserWarning, match="kernels take longer to compile, because drapery.jit_comp"
     ):
-        jit._prepare_numba()
+        jit.prepare_numba()

@@ -68,7 +68,7 @@ def test_an_edit_of_any_function_that_a_kernel_is_compiled_from_changes_its_key(
     for place in entry_points():
         by_function |= dict.fromkeys(compiled_by(place), place)
     assert len(by_function) > 300
-    read = kernel_sources._lines
+    read = kernel_sources.source_lines
     before = {place: kernel_sources.source_key(made) for place, made in entry_points().items()}
     for function, place in by_function.items():
 
@@ -78,7 +78,7 @@ def test_an_edit_of_any_function_that_a_kernel_is_compiled_from_changes_its_key(
                 lines[last_line(function) - 1] += "  # edited"
             return lines
 
-        monkeypatch.setattr(kernel_sources, "_lines", cache(edited))
+        monkeypatch.setattr(kernel_sources, "source_lines", cache(edited))
         kernel_sources.forget()
         assert kernel_sources.source_key(entry_points()[place]) != before[place], function
     monkeypatch.undo()

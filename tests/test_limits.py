@@ -18,7 +18,8 @@ from drapery.batch.manifest import ManifestError, read_manifest
 from drapery.cloth import builders
 from drapery.errors import DesignError, OptionError, PackError
 from drapery.packs import open_packs
-from drapery.render import atlas, materials
+from drapery.render import Material, TextureLayer, atlas
+from drapery.render.materials import make_material_tables
 from drapery.settings import Settings
 
 ROOT = Path(__file__).parents[1]
@@ -166,7 +167,7 @@ def test_a_scene_has_a_largest_size() -> None:
 
 def test_a_texture_has_a_largest_side() -> None:
     with pytest.raises(OptionError, match="16384"):
-        materials._checked(np.zeros((1, 16385, 4), np.uint8))
+        make_material_tables([Material((TextureLayer(np.zeros((1, 16385, 4), np.uint8)),))])
 
 
 def test_an_atlas_has_a_largest_size(monkeypatch: pytest.MonkeyPatch) -> None:

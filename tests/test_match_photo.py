@@ -12,7 +12,7 @@ from drapery.errors import OptionError
 from drapery.match import match_photo
 from drapery.match.light import seen_face
 from drapery.match.perspective import PhotoView, bend_count, find_corners, texel_shifts
-from drapery.match.photo import _WAYS, _aligned
+from drapery.match.photo import WAYS, aligned
 from drapery.match.smooth import grid_fit, least_squares, products
 from drapery.pictures import draw_face
 
@@ -24,7 +24,7 @@ def photo(banner: Banner, gain: tuple[float, float, float] = (0.8, 0.75, 0.7)) -
     """A face in perspective before green, in light of this gain, uint8 [200, 160, 3]."""
     face = draw_face(banner, scale=8).pixels[..., :3] * np.array(gain)
     view = PhotoView(np.zeros((200, 160, 3), np.uint8), CORNERS)
-    back = np.linalg.inv(view._map)
+    back = np.linalg.inv(view.to_photo)
     y, x = np.mgrid[:200, :160] + 0.5
     u, v, w = (row[0] * x + row[1] * y + row[2] for row in back)
     inside = (u > 0) & (u < w) & (v > 0) & (v < w)
@@ -112,7 +112,7 @@ def test_the_part_of_a_flag_that_is_not_read_is_measured() -> None:
 def test_a_face_that_says_nothing_is_aligned_with_the_outline() -> None:
     view = bulging()
     flat = np.zeros(bend_count())
-    across, _ = shifts_of(_aligned(view, flat, view.face(flat)))
+    across, _ = shifts_of(aligned(view, flat, view.face(flat)))
     assert abs(across[20, 19] - 1) < 0.3 and abs(across[20, 0]) < 0.3
 
 
@@ -128,13 +128,13 @@ def test_a_photo_is_aligned_with_a_design() -> None:
     moved = np.roll(face, (16, 12), axis=(0, 1))
     view = PhotoView(moved, ((0, 0), (160, 0), (160, 320), (0, 320)))
     wanted = face.reshape(40, 8, 20, 8, 3).mean(axis=(1, 3)).reshape(-1, 3)
-    bend = _aligned(view, np.zeros(bend_count()), wanted)
+    bend = aligned(view, np.zeros(bend_count()), wanted)
     across, down = shifts_of(bend)[:, 5:-5, 4:-4]
     # Within a quarter of a texel nothing changes: the outermost samples do not count.
     assert np.abs(across - 12 / 8).max() < 0.5 and np.abs(down - 16 / 8).max() < 0.5
 
 
-@pytest.mark.parametrize(("steps", "stiffness"), _WAYS)
+@pytest.mark.parametrize(("steps", "stiffness"), WAYS)
 def test_bricks_are_aligned_though_they_repeat(
     steps: tuple[tuple[int, int], ...], stiffness: float
 ) -> None:
@@ -144,7 +144,7 @@ def test_bricks_are_aligned_though_they_repeat(
     moved = face[np.rint((rows + 0.1 * rows**2) * 320).astype(int).clip(0, 319)]
     view = PhotoView(moved, ((0, 0), (160, 0), (160, 320), (0, 320)))
     wanted = face.reshape(40, 8, 20, 8, 3).mean(axis=(1, 3)).reshape(-1, 3)
-    seen = view.face(_aligned(view, np.zeros(bend_count()), wanted, steps, stiffness))
+    seen = view.face(aligned(view, np.zeros(bend_count()), wanted, steps, stiffness))
     assert np.abs(seen - wanted).reshape(40, -1)[:34].mean() < 1
 
 

@@ -259,12 +259,10 @@ def test_the_command_refuses_what_it_cannot_do(
 def test_ctrl_c_shows_the_best_so_far(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    import drapery.match.search as search
-
     def stopped(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(search, "_kicked", stopped)
+    monkeypatch.setattr(np.random, "default_rng", stopped)
     path = saved(picture(20, 40), tmp_path / "two.png")
     assert run(monkeypatch, path, "--layers", 1, "--alternatives", 1, "--effort", 4) == 0
     shown = capsys.readouterr()

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from PIL import Image
 from served_pictures import pixels_of
+from skin_maker import marked
 from starlette.testclient import TestClient
-from test_players import marked
 
 from drapery import draw
 from drapery.batch.jobs import make_job

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from skin_maker import marked
 
 from drapery import animate, draw
 from drapery.commands.app import command_line
@@ -39,13 +40,6 @@ from drapery.testing.plugin import Golden
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "guides" / "players.md").read_text(encoding="utf-8")
 FACES = 6
-
-
-def marked(height: int = 64, unit: int = 1) -> np.ndarray:
-    """A skin whose texels say where they are: red is x, green is y."""
-    rows, columns = np.mgrid[0:height, 0:64]
-    texels = np.stack([columns * 4, rows * 4, 0 * rows, 255 + 0 * rows], axis=-1).astype(np.uint8)
-    return np.kron(texels, np.ones((unit, unit, 1), np.uint8))
 
 
 def faces_of(box: ModelBox) -> set[tuple[int, int, int, int]]:

@@ -65,7 +65,7 @@ def test_the_doctor_draws_before_it_says_works(monkeypatch: pytest.MonkeyPatch) 
 
 def test_the_doctor_sees_a_triangle_that_is_wrong() -> None:
     with pytest.raises(ValueError, match="wrongly"):
-        doctor._check_triangle(Frame(np.zeros((16, 16, 4), np.uint8)))
+        doctor.check_triangle(Frame(np.zeros((16, 16, 4), np.uint8)))
 
 
 @pytest.mark.parametrize(
@@ -76,11 +76,11 @@ def test_a_platform_that_is_asked_for_names_its_own_library(
     platform: str, library: str, package: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYOPENGL_PLATFORM", platform)
-    monkeypatch.setattr(gl_platform, "_loaded", lambda name: None)
+    monkeypatch.setattr(gl_platform, "loaded_library", lambda name: None)
     said = rf"on {platform}, which PYOPENGL_PLATFORM names \({library} is missing.*{package}$"
     with pytest.raises(BackendError, match=said) as raised:
         gl_platform.choose_platform()
-    monkeypatch.setattr(doctor, "_run", lambda program: (False, str(raised.value)))
-    report = doctor._pyrender()
+    monkeypatch.setattr(doctor, "run_program", lambda program: (False, str(raised.value)))
+    report = doctor.backend_report()[1]
     assert report.remedy.endswith(package) and library in report.detail
     assert package not in report.detail

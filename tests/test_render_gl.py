@@ -266,7 +266,7 @@ def test_missing_parts_are_named_with_what_installs_them(monkeypatch: pytest.Mon
         gl_platform.load_pyrender()
     monkeypatch.undo()
     monkeypatch.delenv("PYOPENGL_PLATFORM", raising=False)
-    monkeypatch.setattr(gl_platform, "_loaded", lambda name: None)
+    monkeypatch.setattr(gl_platform, "loaded_library", lambda name: None)
     with pytest.raises(BackendError, match=r"libGL.so.1 is missing.*apt-get install .*libegl1"):
         gl_platform.load_pyrender()
 

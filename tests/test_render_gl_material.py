@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from test_render_relief import LEVEL, WHITE, board, scene_of, slope
+from relief_shapes import LEVEL, WHITE, board, scene_of, slope
 
 from drapery.errors import BackendError
 from drapery.render import gl

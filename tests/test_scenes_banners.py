@@ -39,10 +39,10 @@ def test_banners_wave_and_stretch_little() -> None:
 
 
 def test_the_cube_holds_4913_banners_in_rows() -> None:
-    places = stress._places(stress.StressParameters())
+    places = stress.places_of(stress.StressParameters())
     assert places.shape == (4913, 3)
     assert len(np.unique(places, axis=0)) == 4913
-    material_index = stress._bands(17)
+    material_index = stress.material_numbers(17)
     assert (
         material_index.min() == 0
         and material_index.max() == len(stress.RAINBOW) * stress.VARIANTS - 1
@@ -52,7 +52,7 @@ def test_the_cube_holds_4913_banners_in_rows() -> None:
 def test_every_banner_of_the_cube_moves_by_itself() -> None:
     parameters = stress.StressParameters(side=3, settle=0.5)
     clip = Clip((64, 64), 2, 20.0)
-    first, second = stress._motion(parameters, clip, stress._places(parameters))
+    first, second = stress.positions_of(parameters, clip, stress.places_of(parameters))
     moves = (second - first)[:, -1]
     assert len(np.unique(np.round(moves, 7), axis=0)) == 27
 

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule, run_state_machine_as_test
 from pack_maker import CREEPER, META, folder_pack, mcmeta, plain
 from served_pictures import pixels_of
-from test_batch_server import service, workers_of
+from service_process import service, workers_of
 
 from drapery import Banner, draw
 

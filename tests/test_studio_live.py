@@ -641,9 +641,9 @@ def test_unstable_cloth_is_reported_and_reset(client: Any) -> None:
     viewport = session.viewport
 
     def tear(live: Live) -> None:
-        (cloth,) = live._cloths
+        (cloth,) = live.cloths
         state = replace(cloth.state, velocities=cloth.state.velocities * np.nan)
-        live._live.cloths[0] = replace(cloth, state=state)
+        live.replace_cloth(0, replace(cloth, state=state))
 
     with client.websocket_connect(f"/live/{session.token}") as socket:
         socket.send_json(SHAPE)

@@ -98,12 +98,12 @@ def test_a_pack_has_the_warnings_of_the_commands_and_the_format_is_chosen(tmp_pa
 
 
 def test_a_pack_with_a_broken_sheet_for_shields_is_refused(tmp_path: Path) -> None:
-    from drapery.studio.pack_store import _contents
+    from drapery.studio.pack_store import contents_of
 
     files = {META: mcmeta(), "assets/minecraft/textures/entity/shield/creeper.png": b"broken"}
     path = zip_pack(tmp_path / "a.zip", files)
     with pytest.raises(PackError, match=r"shield/creeper\.png is not a PNG file"):
-        _contents(path, "a.zip", None)
+        contents_of(path, "a.zip", None)
 
 
 def test_no_pack_is_read_before_the_page_is_there(tmp_path: Path) -> None:

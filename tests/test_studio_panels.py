@@ -79,7 +79,7 @@ def test_a_search_that_no_click_began_counts_in_german(
     async def build(client: Client, session: Session) -> None:
         with client:
             panel = LibraryPanel(session)
-        await asyncio.create_task(panel._refresh())
+        await asyncio.create_task(panel.refresh())
         assert "Entwürfe: 1" in texts(client)
         assert "Red löschen" in texts(client, "title")
         assert "Red umbenennen oder markieren" in texts(client, "title")
@@ -101,7 +101,7 @@ def test_a_choice_of_the_format_says_in_german_what_is_read(
         said = []
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(ui.label, "set_text", lambda self, text: said.append(text))
-            choice._take(value="34", number=1)
+            choice.take(value="34", number=1)
             while "" not in said:
                 await asyncio.sleep(0.01)
         assert said == ["Alle Muster werden gelesen …", ""]
@@ -148,7 +148,7 @@ def test_an_item_has_no_turntable(in_page: Callable[..., None]) -> None:
         fit()
         assert group.visible
         session.adjust(turntable=True)
-        place._take(value="item", number=1)
+        place.take(value="item", number=1)
         assert (session.settings.placement, session.settings.turntable) == ("item", False)
         fit()
         assert not group.visible
@@ -210,9 +210,9 @@ def test_progress_waits_for_a_page_that_is_busy(
 ) -> None:
     async def check(client: Client, session: Session) -> None:
         with client:
-            form = export._ExportForm(session, FileChoice())
+            form = export.ExportForm(session, FileChoice())
         request = ExportRequest(BANNER, session.settings)
-        work = form._own.current = Export(request, tmp_path / "x.png", "x.png", 1, 4)
+        work = session.exports.current = Export(request, tmp_path / "x.png", "x.png", 1, 4)
         answered, asked = asyncio.Event(), []
 
         async def answer(code: str, timeout: float) -> None:
@@ -220,18 +220,18 @@ def test_progress_waits_for_a_page_that_is_busy(
             await answered.wait()
 
         monkeypatch.setattr(client, "run_javascript", answer)
-        tick = asyncio.create_task(form._tick())
+        tick = asyncio.create_task(form.tick())
         while not asked:
             await asyncio.sleep(0)
-        assert not tick.done() and form._bar.props["value"] == 0.25
+        assert not tick.done() and form.bar.props["value"] == 0.25
         answered.set()
         await tick
         sent: list[Element] = []
         monkeypatch.setattr(Element, "update", lambda element: sent.append(element))
-        form._show_progress(work)
+        form.show_progress(work)
         assert sent == [], "what is unchanged is not sent again"
         work.done = 2
-        form._show_progress(work)
-        assert form._bar in sent
+        form.show_progress(work)
+        assert form.bar in sent
 
     in_page(check)

@@ -5,18 +5,19 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from drapery.garments import find_garment
 from drapery.packs import open_packs
-from drapery.scenes import Clip
+from drapery.scenes import Clip, Picture
 from drapery.studio.live_threads import THREADS, in_thread
 from drapery.studio.panels.live import wear
-from drapery.studio.player import Player, _ClosedError, garment_show
+from drapery.studio.player import Player, Show, garment_show
 from drapery.studio.session import Session
 from drapery.studio.sketch import Sketch
 
@@ -24,7 +25,7 @@ from drapery.studio.sketch import Sketch
 @pytest.fixture
 def session() -> Iterator[Session]:
     opened = Session()
-    opened.viewport._turn(0)  # makes the live cloth
+    opened.viewport.turn(0)  # makes the live cloth
     yield opened
     opened.close()
 
@@ -33,7 +34,7 @@ def test_a_viewer_does_not_wait_for_a_long_turn(session: Session) -> None:
     """Else it would not see the note which says that the turn is long."""
     viewport, began, end = session.viewport, threading.Event(), threading.Event()
     viewport.do(lambda live: (began.set(), end.wait(20)))
-    turn = threading.Thread(target=viewport._turn, args=(0,))
+    turn = threading.Thread(target=viewport.turn, args=(0,))
     turn.start()
     assert began.wait(20)
     start = time.monotonic()
@@ -48,7 +49,7 @@ def test_no_input_is_lost_while_turns_are_made(session: Session) -> None:
 
     def turns() -> None:
         while not done.is_set():
-            viewport._turn(0)
+            viewport.turn(0)
 
     thread = threading.Thread(target=turns)
     thread.start()
@@ -56,7 +57,7 @@ def test_no_input_is_lost_while_turns_are_made(session: Session) -> None:
         viewport.do(lambda live, number=number: seen.append(number))
     done.set()
     thread.join()
-    viewport._turn(0)
+    viewport.turn(0)
     assert seen == [*range(2000)]
 
 
@@ -67,14 +68,14 @@ def test_a_garment_is_shown_at_rest_and_then_moves(session: Session) -> None:
     session.adjust(grid=(3, 5))  # a garment has its own
     for base in ("white", "red"):
         session.edit(Sketch(base))
-        viewport._turn(0)
+        viewport.turn(0)
         shown = viewport.shown()
         assert shown is not None and not viewport.fault and not shown.live
         (cloth,) = shown.panes[0].scene.models[-1].materials
         kinds.append([(each.tint, each.texels.tobytes()) for each in cloth.layers])
     assert kinds[0] != kinds[1]  # the flag shows the design
     wear(session, None)
-    viewport._turn(0)
+    viewport.turn(0)
     shown = viewport.shown()
     assert shown is not None and shown.live
 
@@ -92,17 +93,30 @@ def test_the_loop_of_a_garment_follows_its_first_picture() -> None:
     assert not np.array_equal(places[0], places[1]) and places[0] is places[2]
 
 
-def test_a_loop_that_nobody_will_see_is_given_up(session: Session) -> None:
-    viewport, players = session.viewport, []
+def test_a_loop_that_nobody_will_see_is_given_up(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def endless(clip: Clip, on_moment: Callable[[int, int], object]) -> Iterator[Picture]:
+        while True:
+            on_moment(0, clip.count)
+            time.sleep(0.01)
+
+    def show(*given: Any) -> Show:
+        return replace(garment_show(*given), play=endless)
+
+    monkeypatch.setattr("drapery.studio.viewport.garment_show", show)
+    viewport, threads = session.viewport, set()
     wear(session, "flag")
     for base in ("white", "red", "blue"):
         session.edit(Sketch(base))
-        viewport._turn(0)
-        players.append(viewport._player)
+        viewport.turn(0)
+        threads |= {each for each in threading.enumerate() if each.name == "show"}
     assert viewport.shown() is not None and not viewport.fault
+    assert len(threads) == 3
     session.close()
-    for player in players:
-        assert isinstance(player._prepared.exception(60), _ClosedError)
+    for thread in threads:
+        thread.join(60)
+        assert not thread.is_alive()
 
 
 def test_a_process_ends_while_a_turn_is_made() -> None:
@@ -142,7 +156,7 @@ def test_no_version_is_counted_twice(session: Session) -> None:
     viewport = session.viewport
     before = viewport.version
     counts = [
-        threading.Thread(target=lambda: [viewport._count_change() for _ in range(5000)])
+        threading.Thread(target=lambda: [viewport.count_change() for _ in range(5000)])
         for _ in range(4)
     ]
     for thread in counts:

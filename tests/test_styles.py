@@ -13,21 +13,19 @@ import trimesh
 from conftest import Run
 from cost import limited_cost
 from pydantic import Field
+from style_inputs import TEXEL, canvas, rippled
 
 from drapery import Banner, Settings, animate, draw
 from drapery.batch.keys import DigestCache, picture_key
 from drapery.batch.manifest import read_manifest
-from drapery.cloth import grid
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.render import Buffers, Camera, Scene, draw_scene
 from drapery.serve.request_params import ServiceConfig, read_request
 from drapery.sheets import styles_sheet
-from drapery.style import FLAG_MAPPING, FLAG_SIZE
 from drapery.styles import (
     STEPS,
     Canvas,
-    Sheet,
     Style,
     StyleStep,
     combined_style,
@@ -35,36 +33,15 @@ from drapery.styles import (
     style_names,
 )
 from drapery.styles.catalogue import PRESETS
-from drapery.styles.grids import grid_shell
 from drapery.styles.loading import MAX_BYTES, MAX_STEPS
 from drapery.styles.style import MAX_SAMPLES
 
 BANNER = Banner.parse("white creeper:lime border:black")
-TEXEL = 1 / 24
 ALL_STEPS = [(kind, name) for kind, steps in STEPS.items() for name in steps]
-
-
-def rippled(rows: int = 9, columns: int = 5) -> Sheet:
-    """A flag that hangs in shallow waves."""
-    rest = grid(columns, rows, *FLAG_SIZE).rest_positions
-    waves = 0.1 * np.sin(4 * rest[:, 1:2] + 2 * rest[:, :1]) * [0.2, 0.1, 1]
-    return Sheet(rest + waves, grid_shell(rows, columns, FLAG_MAPPING), TEXEL, TEXEL, FLAG_SIZE)
 
 
 def no_buffers() -> Buffers:
     raise AssertionError("nobody should have asked for buffers")
-
-
-def canvas(height: int = 30, width: int = 40) -> Canvas:
-    """A ramp of colours, whose left half shows a model."""
-    pixels = np.full((height, width, 4), 255, np.uint8)
-    pixels[..., 0] = np.arange(width) * 6
-    pixels[..., 1] = np.arange(height)[:, None] * 8
-    shown = np.broadcast_to(np.arange(width) < width // 2, (height, width))
-    normal = np.where(shown[..., None], np.float32([0, 0, 1]), np.float32(0))
-    depth = np.where(shown, np.float32(3), np.float32(np.inf))
-    model, uv = np.where(shown, 0, -1).astype(np.int32), np.zeros((height, width, 2), np.float32)
-    return Canvas(pixels, lambda: Buffers(depth, normal, model, uv, model))
 
 
 @pytest.mark.parametrize("name", PRESETS)
@@ -184,7 +161,7 @@ def test_a_step_does_not_divide_cloth_into_too_many_texels() -> None:
 
 def test_discs_around_marks_in_a_row_are_those_of_each_mark() -> None:
     from drapery.styles.kernels import draw_marks
-    from drapery.styles.picture_steps import _disc
+    from drapery.styles.picture_steps import disc_widths
 
     rng = np.random.default_rng(5)
     source = rng.integers(0, 2**32, (20, 45), dtype=np.uint32)
@@ -192,7 +169,7 @@ def test_discs_around_marks_in_a_row_are_those_of_each_mark() -> None:
     marks[:, :45] = rng.random((20, 45)) < 0.1
     table = np.stack([np.arange(256)[::-1]] * 3).astype(np.uint8)
     for radius in (0.0, 1.0, 2.5, 7.0):
-        reach, drawn = _disc(radius), source.copy()
+        reach, drawn = disc_widths(radius), source.copy()
         draw_marks(drawn, source, marks.view(np.uint64), reach, table)
         near = np.zeros(source.shape, bool)
         for y, x in zip(*np.nonzero(marks), strict=True):

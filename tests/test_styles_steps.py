@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_styles import canvas, rippled
+from style_inputs import canvas, rippled
 
 from drapery import Banner, Settings
 from drapery.banner import DYES

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from source_modules import modules, names_of
 
-from drapery.banner.formats.files import _world_files
+from drapery.banner.formats.files import world_files
 from drapery.banner.packs.folders import FolderSource
 from drapery.batch.keys import DigestCache
 from drapery.errors import PackError
@@ -115,7 +115,7 @@ def test_a_folder_that_cannot_be_listed_is_named(unlisted: Path) -> None:
     with pytest.raises(PackError, match="cannot be read: Permission denied"):
         DigestCache().of(unlisted)
     said: list[Exception] = []
-    assert not [*_world_files(unlisted, said.append)]
+    assert not [*world_files(unlisted, said.append)]
     assert "assets: Permission denied; make it readable" in str(said[0])
 
 

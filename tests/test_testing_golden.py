@@ -188,8 +188,8 @@ def test_a_damaged_picture_of_a_layer_is_said(face: str) -> None:
 
 
 def _shifted(face: str, down: int) -> str:
-    from drapery.testing.explain import _pack, _unpack
+    from drapery.testing.explain import packed_face, unpacked_face
 
-    pixels = _unpack(face)
+    pixels = unpacked_face(face)
     assert pixels is not None
-    return _pack(np.roll(pixels, down, axis=0))
+    return packed_face(np.roll(pixels, down, axis=0))

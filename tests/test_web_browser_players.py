@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from studio_browser import wait_until
-from test_web_browser import CANVAS, changes, first_picture, is_live, open_site, served, warnings
+from web_sites import CANVAS, changes, first_picture, is_live, open_site, served, warnings
 
 from drapery.settings import Settings
 from drapery.web import page

@@ -14,7 +14,7 @@ import pytest
 from selenium.webdriver import Keys
 from selenium.webdriver.common.by import By
 from studio_browser import wait_until
-from test_web_browser import Handler, changes, first_picture, is_live, open_site
+from web_sites import Handler, changes, first_picture, is_live, open_site
 
 from drapery import Banner
 from drapery.settings import Settings

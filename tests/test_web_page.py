@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import Run
-from test_javascript import NODE, run_node
+from node_program import NODE, run_node
 
 from drapery import Banner, OptionError
 from drapery.packs import open_packs

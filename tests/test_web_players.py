@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("ziglang", reason="ziglang is not installed (drapery-mc[web-build])")
 pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery-mc[dev])")
 
-from test_javascript import NODE, run_node
+from node_program import NODE, run_node
 from wasm_player import WasmPlayer, built_module
 
 from drapery.errors import OptionError

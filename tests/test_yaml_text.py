@@ -115,7 +115,7 @@ def test_64_levels_are_read_and_one_more_is_refused(
     closing: str,
 ) -> None:
     """Of all loaders of PyYAML, whose own limits differ; brackets in texts count for nothing."""
-    monkeypatch.setattr(yaml_text, "_BASE", getattr(yaml, loader))
+    monkeypatch.setattr(yaml_text, "BASE", getattr(yaml, loader))
     for depth in (MAX_DEPTH, MAX_DEPTH + 1, 1100):
         text = before + "- " + opening * (depth - 1) + middle + closing * (depth - 1)
         if depth == MAX_DEPTH:

@@ -320,3 +320,19 @@ def save(path: Path, data: bytes) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(data)
     return path
+
+
+RED_CHUNK = chunk("1.18", {(48, 71, 9): (block_id(RED), entity(RED))})
+
+
+def make_world(folder: Path) -> None:
+    """Write a world with banners in two dimensions and in what players carry."""
+    chunks = region({(3, 0): RED_CHUNK})
+    save(folder / "level.dat", nbt_file({"Data": {"Player": {"Item": item(LIME)}}}))
+    save(folder / "region" / "r.0.0.mca", chunks)
+    save(folder / "region" / "r.-1.0.mca", b"")
+    save(folder / "DIM-1" / "region" / "r.0.0.mca", chunks)
+    save(folder / "dimensions" / "a" / "b" / "entities" / "r.0.0.mca", chunks)
+    save(folder / "poi" / "r.0.0.mca", b"not read")
+    save(folder / "playerdata" / "x.dat", nbt_file({"Inventory": [item(SHIELD)]}))
+    save(folder / "playerdata" / "x.dat_old", b"not read")

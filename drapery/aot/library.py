@@ -34,7 +34,7 @@ def library_path() -> Path:
 
 def kernels_of(entry_point: Any) -> dict[tuple[str, ...], CompiledKernel]:
     """The compiled code of a function by the types of its arguments; empty if there is none."""
-    found = _library()
+    found = installed_library()
     name = f"{entry_point.__module__}.{entry_point.__qualname__}"
     if found is None or name not in found[1]["kernels"]:
         return {}
@@ -45,10 +45,10 @@ def kernels_of(entry_point: Any) -> dict[tuple[str, ...], CompiledKernel]:
 
 
 @cache
-def _library() -> tuple[ctypes.CDLL, dict[str, Any]] | None:
+def installed_library() -> tuple[ctypes.CDLL, dict[str, Any]] | None:
     """The library and its description; None if there is none that this processor can run."""
     path = library_path()
-    if os.environ.get(OFF) == "0" or not path.is_file() or not _has_registers():
+    if os.environ.get(OFF) == "0" or not path.is_file() or not has_registers():
         return None
     try:
         loaded = ctypes.CDLL(str(path))
@@ -60,7 +60,7 @@ def _library() -> tuple[ctypes.CDLL, dict[str, Any]] | None:
     return (loaded, description) if description.get("abi") == ABI else None
 
 
-def _has_registers() -> bool:
+def has_registers() -> bool:
     """Whether the processor has the registers that the library is compiled for."""
     if machine() != "x86_64":
         return True

@@ -80,14 +80,15 @@ def resolved(job: Job, artifacts: tuple[Artifact, ...]) -> Job:
 def _folder() -> Path:
     """This process's folder of artifacts; it is private, so its files can be trusted."""
     with _lock:
-        return Path(_temporary_folder().name)
+        return Path(temporary_folder().name)
 
 
 _lock = threading.Lock()
 
 
 @cache
-def _temporary_folder() -> tempfile.TemporaryDirectory[str]:
+def temporary_folder() -> tempfile.TemporaryDirectory[str]:
+    """The folder of this process, which is removed when it ends."""
     return tempfile.TemporaryDirectory(prefix="drapery-packs-", ignore_cleanup_errors=True)
 
 

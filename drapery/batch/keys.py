@@ -117,7 +117,7 @@ def added_code(
     """
     used = [*functions, backend(chosen) if isinstance(chosen, str) else chosen]
     packages = {_module_of(function).partition(".")[0] for function in used}
-    return {name: _code_of(name) for name in sorted(packages - {"drapery"})}
+    return {name: code_of(name) for name in sorted(packages - {"drapery"})}
 
 
 def _module_of(function: Any) -> str:
@@ -127,8 +127,8 @@ def _module_of(function: Any) -> str:
 
 
 @cache
-def _code_of(package: str) -> list[str]:
-    """Of a package that is imported, since what is imported is what draws."""
+def code_of(package: str) -> list[str]:
+    """The versions and digests of an imported package: what is imported is what draws."""
     names = packages_distributions().get(package, [])
     found = [f"{name} {version(name)}" for name in sorted(set(names))]
     module = sys.modules[package]

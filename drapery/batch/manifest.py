@@ -110,7 +110,7 @@ def read_manifest(
             continue
         request = _request(row, _unset(row, defaults or {}), number, format, folder)
         if isinstance(request, PictureRequest):
-            requests.append(_numbered(request, used) if row.where else request)
+            requests.append(numbered(request, used) if row.where else request)
         else:
             faults += [ManifestFault(row.place, line) for line in request]
     faults += [*_clashing_files(requests), *_unusable(requests)]
@@ -403,7 +403,7 @@ def _times(
     return seconds, fps
 
 
-def _numbered(request: PictureRequest, used: dict[str, int]) -> PictureRequest:
+def numbered(request: PictureRequest, used: dict[str, int]) -> PictureRequest:
     """The request with a number in its file name if another banner of the world has that name.
 
     used: the names that are taken, each with the last number that was added to it.

@@ -47,7 +47,7 @@ def run(pipe: Any, work: Callable[[Any], Any], memory: int, threads: int) -> Non
             pipe.send(message)
 
     with suppress(EOFError, ConnectionError), _reported_compiling(send):
-        _limit(memory)
+        limit_memory(memory)
         send(memory_of("self", RESIDENT))
         while True:
             send(_result(work, pipe.recv()))
@@ -89,7 +89,7 @@ def _die_with_parent() -> None:
         os._exit(1)
 
 
-def _limit(memory: int) -> None:
+def limit_memory(memory: int) -> None:
     """Refuse allocations beyond the limit, where the system can."""
     if sys.platform != "win32":
         import resource

@@ -56,21 +56,22 @@ def compile_notice() -> Iterator[None]:
     """
     from drapery.jit import when_numba_compiles
 
-    with when_numba_compiles(_say_compiling):
+    with when_numba_compiles(say_compiling):
         yield
 
 
-def _say_compiling(function: Callable[..., object]) -> None:
+def say_compiling(function: Callable[..., object]) -> None:
+    """Tell that kernels are compiled, and compile others beside."""
     from drapery.jit import expected_call
 
     say("compiling kernels, which happens once and takes up to a minute ...")
     if not function.__module__.startswith("drapery.render"):
-        _start_beside(["drapery.render.soft"])
+        start_beside(["drapery.render.soft"])
     if call := expected_call():
-        _start_beside([], call)
+        start_beside([], call)
 
 
-def _start_beside(words: list[str], call: bytes = b"") -> None:
+def start_beside(words: list[str], call: bytes = b"") -> None:
     """Compile kernels in another process, without waiting for it; see `drapery.compile_beside`."""
     import subprocess  # it takes long to load
 

@@ -74,7 +74,7 @@ class PhotoView:
             )
 
     @cached_property
-    def _map(self) -> Reals:
+    def to_photo(self) -> Reals:
         """From the unit square to the photo, in homogeneous coordinates, [3, 3]."""
         (x0, y0), (x1, y1), (x2, y2), (x3, y3) = self.corners
         across, down = (x1 - x2, y1 - y2), (x3 - x2, y3 - y2)
@@ -108,7 +108,7 @@ class PhotoView:
     def colours(self, u: Reals, v: Reals) -> Reals:
         """The colours at places of the unit square [...], between pixels, [..., 3]."""
         height, width = self.picture.shape[:2]
-        x, y, scale = (row[0] * u + row[1] * v + row[2] for row in self._map)
+        x, y, scale = (row[0] * u + row[1] * v + row[2] for row in self.to_photo)
         x = np.clip(x / scale - 0.5, 0, width - 1.001)
         y = np.clip(y / scale - 0.5, 0, height - 1.001)
         left, top = x.astype(np.intp), y.astype(np.intp)
@@ -174,7 +174,7 @@ class PhotoView:
         u = np.linspace(-_AROUND, 1 + _AROUND, int(20 * (1 + 2 * _AROUND) * WIDTH))
         v = np.linspace(-_AROUND, 1 + _AROUND, int(10 * (1 + 2 * _AROUND) * HEIGHT))
         across, down = np.meshgrid(u, v)
-        x, y, scale = (row[0] * across + row[1] * down + row[2] for row in self._map)
+        x, y, scale = (row[0] * across + row[1] * down + row[2] for row in self.to_photo)
         column = np.clip(x / scale, 0, part.shape[1] - 1).astype(np.intp)
         line = np.clip(y / scale, 0, part.shape[0] - 1).astype(np.intp)
         seen = part[line, column]

@@ -45,9 +45,9 @@ _LEFT_OUT = 10.0
 _TINTED = 600.0
 """What light of a colour costs, times the range of its channels, likewise."""
 _STIFF, _SOFT = 4000.0, 500.0
-"""How much a flag resists being bent by `_aligned`, times the squares of its bends."""
+"""How much a flag resists being bent by `aligned`, times the squares of its bends."""
 _Step = tuple[int, int]
-"""How often both faces are softened in a step of `_aligned`, and how many rows of texels count."""
+"""How often both faces are softened in a step of `aligned`, and how many rows of texels count."""
 _COARSE: tuple[_Step, ...] = tuple((times, HEIGHT) for times in (8, 8, 4, 2, 1))
 """First what is large is aligned."""
 _DOWNWARDS: tuple[_Step, ...] = (
@@ -57,9 +57,9 @@ _DOWNWARDS: tuple[_Step, ...] = (
 )
 """From the upper edge, which hangs on a bar, downwards: what repeats is not aligned astray."""
 _Way = tuple[tuple[_Step, ...], float]
-"""The steps of `_aligned`, and its stiffness."""
+"""The steps of `aligned`, and its stiffness."""
 _COARSELY: _Way = _COARSE, _STIFF
-_WAYS: tuple[_Way, ...] = (_COARSELY, (_DOWNWARDS, _SOFT))
+WAYS: tuple[_Way, ...] = (_COARSELY, (_DOWNWARDS, _SOFT))
 _EACH = 2
 """With how many designs of each number of layers the photo is aligned."""
 _TURNS = 6
@@ -196,11 +196,11 @@ class _PhotoSearch:
             before = limit
             while self.fits[stack].error < before - _LITTLE:
                 before = self.fits[stack].error
-                self._realign(stack, self.fits[stack], _WAYS)
+                self._realign(stack, self.fits[stack], WAYS)
 
     def refine(self, stack: Stack) -> None:
         """Align the photo with a design, and search for better designs in its light."""
-        self._realign(stack, self.fits[stack], _WAYS)
+        self._realign(stack, self.fits[stack], WAYS)
         fit = self.fits[stack]
         goal, quick = self._goals(fit.seen, fit.light)
         lowered = _lowered(quick, self.layers)[:_DESCENTS]
@@ -244,7 +244,7 @@ class _PhotoSearch:
         """Align the photo with a design. fit: that of this design, or of a similar one."""
         wanted = self._paint(stack) * fit.light
         for steps, stiffness in ways:
-            bend = _aligned(self.view, fit.bend, wanted, steps, stiffness)
+            bend = aligned(self.view, fit.bend, wanted, steps, stiffness)
             self._put(seen_face(self.view.face(bend)), bend, [stack])
 
     @property
@@ -316,7 +316,7 @@ def _lowered(goal: Goal, layers: int) -> list[Stack]:
     return [errors[error] for error in sorted(errors)]
 
 
-def _aligned(
+def aligned(
     view: PhotoView,
     bend: Reals,
     wanted: Reals,

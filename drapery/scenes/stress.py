@@ -49,12 +49,12 @@ class StressParameters(SceneParameters):
 def play(parameters: StressParameters, clip: Clip) -> Iterator[Scene]:
     """The cube in a wind whose gusts pass through it."""
     cloth = grid(5, 9, *FLAG_SIZE)
-    places = _places(parameters)
+    places = places_of(parameters)
     shell = make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING)
     materials = _materials(parameters)
-    material_index = _bands(parameters.side)
+    material_index = material_numbers(parameters.side)
     camera = frame_points(CORNER, places[:, None] + _framed_points(), clip.size[0] / clip.size[1])
-    for positions in _motion(parameters, clip, places):
+    for positions in positions_of(parameters, clip, places):
         placed = (positions + places[:, None]).astype(np.float32)
         mesh = cover_crowd(shell, placed, SCALE)
         yield Scene(
@@ -66,7 +66,8 @@ def play(parameters: StressParameters, clip: Clip) -> Iterator[Scene]:
         )
 
 
-def _motion(parameters: StressParameters, clip: Clip, places: Array) -> Iterator[Array]:
+def positions_of(parameters: StressParameters, clip: Clip, places: Array) -> Iterator[Array]:
+    """The positions of all flags at the moments of a clip [m], each [side³, particles, 3]."""
     cloth = grid(5, 9, *FLAG_SIZE)
     wind = Wind((0.4 * parameters.wind, 0.0, parameters.wind), seed=parameters.seed, origins=places)
     start, settle = rest_state(cloth, len(places), np.float32), parameters.settle
@@ -75,7 +76,7 @@ def _motion(parameters: StressParameters, clip: Clip, places: Array) -> Iterator
     return (state.positions for state in states)
 
 
-def _places(parameters: StressParameters) -> Array:
+def places_of(parameters: StressParameters) -> Array:
     """Middles of the top edges of the flags [m], shape [side³, 3]."""
     steps = np.arange(parameters.side) - (parameters.side - 1) / 2
     corners = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -90,7 +91,7 @@ def _framed_points() -> Array:
     return np.stack([low, high])
 
 
-def _bands(side: int) -> NDArray[np.int32]:
+def material_numbers(side: int) -> NDArray[np.int32]:
     """The number of each banner's material, shape [side³]; colours change from corner to corner."""
     x, y, z = np.indices((side, side, side)).reshape(3, -1)
     band = (x + side - 1 - y + z) * len(RAINBOW) // (3 * side - 2)

@@ -31,7 +31,7 @@ class FormField(Element, component="form_field.js"):
         self._answered = 0
         self.props.update({"kind": kind, "choices": list((choices or {}).items())})
         self._show()
-        self.on("value", lambda event: self._take(**event.args))
+        self.on("value", lambda event: self.take(**event.args))
 
     def refresh(self) -> None:
         """Show the current value."""
@@ -43,7 +43,8 @@ class FormField(Element, component="form_field.js"):
         self.props["choices"] = list(choices.items())
         self._show()
 
-    def _take(self, value: Any, number: int) -> None:
+    def take(self, value: Any, number: int) -> None:
+        """Take the input of this number from the page."""
         self._answered = int(number)
         try:
             with errors_shown():

@@ -129,14 +129,14 @@ class Live:
         self._shadow = None
         self._live.steps = 0
         self._live.wind = self.wind_controls.wind
-        self._live.cloths = [new_live_cloth(cloth.spec) for cloth in self._cloths]
+        self._live.cloths = [new_live_cloth(cloth.spec) for cloth in self.cloths]
 
     def grab(self, ray: Ray) -> bool:
         """Grab the free particle nearest to a line of sight; False if there is none."""
         self.release()
         found = [
             (miss, number, particle)
-            for number, cloth in enumerate(self._cloths)
+            for number, cloth in enumerate(self.cloths)
             for miss, particle in [self._nearest(number, cloth, ray)]
             if particle is not None
         ]
@@ -145,24 +145,24 @@ class Live:
         _, number, particle = min(found)
         self._disturbed = True
         self._held = number
-        self._replace(number, self._cloths[number].grabbed(particle))
+        self.replace_cloth(number, self.cloths[number].grabbed(particle))
         return True
 
     def pull(self, ray: Ray) -> None:
         """Pull the grabbed particle to a line of sight; its distance from the camera stays."""
-        grab = None if self._held is None else self._cloths[self._held].grab
+        grab = None if self._held is None else self.cloths[self._held].grab
         depth = float(np.sum(ray.along * ray.facing))
         if self._held is None or grab is None or abs(depth) < 1e-6:
             return
         at = _to_world(self._live, self._held, grab.target)
         share = float(np.sum((at - ray.origin) * ray.facing)) / depth
         target = self._from_world(self._held, ray.origin + share * ray.along)
-        self._replace(self._held, self._cloths[self._held].pulled(target))
+        self.replace_cloth(self._held, self.cloths[self._held].pulled(target))
 
     def release(self) -> None:
         """Let go of the grabbed particle."""
         if self._held is not None:
-            self._replace(self._held, self._cloths[self._held].released())
+            self.replace_cloth(self._held, self.cloths[self._held].released())
         self._held = None
 
     def step(self, steps: int = 1) -> None:
@@ -183,7 +183,7 @@ class Live:
 
     def particles(self) -> list[Array]:
         """The particles of each cloth, in the cloth's frame [m], shape [N, 3]."""
-        return [cloth.positions for cloth in self._cloths]
+        return [cloth.positions for cloth in self.cloths]
 
     def shown(self) -> ViewerState:
         """What the viewer shows at this moment."""
@@ -191,7 +191,7 @@ class Live:
         meshes = live.meshes()
         bodies = (live.body, *([] if self._other is None else [self._other]))
         moves = self.leaves_room and settings.pose == "cloth"
-        rests = [cloth.whole.rest_positions for cloth in self._cloths] if moves else []
+        rests = [cloth.whole.rest_positions for cloth in self.cloths] if moves else []
         framing = partial(_camera, live, meshes, rests)
         panes = []
         for body, caption in zip(bodies, self._captions, strict=True):
@@ -213,12 +213,13 @@ class Live:
         return self._live.staging.settings
 
     @property
-    def _cloths(self) -> list[LiveCloth]:
+    def cloths(self) -> list[LiveCloth]:
+        """The cloths that move, by number."""
         return [cloth for cloth in self._live.cloths if isinstance(cloth, LiveCloth)]
 
     def _cloths_for(self, body: Body, settings: Settings) -> list[LiveCloth]:
         """A cloth for each panel: the current one, or a new one if its spec has changed."""
-        old = dict(enumerate(self._cloths))
+        old = dict(enumerate(self.cloths))
         cloths = []
         for number, panel in enumerate(body.panels):
             spec, cloth = cloth_spec(panel, settings, body.solids), old.get(number)
@@ -228,7 +229,8 @@ class Live:
             cloths.append(cloth)
         return cloths
 
-    def _replace(self, number: int, cloth: LiveCloth) -> None:
+    def replace_cloth(self, number: int, cloth: LiveCloth) -> None:
+        """Put another cloth in the place of the one of this number."""
         self._live.cloths[number] = cloth
 
     def _shadow_of(self, models: Sequence[Model]) -> Model:

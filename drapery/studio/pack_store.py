@@ -73,7 +73,7 @@ class PackStore:
         """
         upload = self._uploads.get(number, "pack")
         try:
-            return _contents(upload.path, upload.name, self._document.settings.format)
+            return contents_of(upload.path, upload.name, self._document.settings.format)
         except DraperyError as error:
             raise PackError(str(error).replace(str(upload.path), upload.name)) from None
 
@@ -173,12 +173,12 @@ class PackStore:
 
 def _contents_or_fault(entry: PackEntry, format: int | None) -> PackContents:
     try:
-        return _contents(entry.path, entry.name, format)
+        return contents_of(entry.path, entry.name, format)
     except DraperyError:  # the live cloth, which reads the pack too, says why
         return PackContents("cannot be read whole")
 
 
-def _contents(path: Path, name: str, format: int | None) -> PackContents:
+def contents_of(path: Path, name: str, format: int | None) -> PackContents:
     """A pack's contents for banners and shields; reads every texture once. Raises PackError.
 
     name: what the warnings call the pack.

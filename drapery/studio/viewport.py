@@ -120,7 +120,7 @@ class Viewport:
             name = Path(after.scene or after.garment or after.skin or "").stem
             kind = "scene" if after.scene else "garment" if after.garment else "player"
             self.note = f"The {kind} {name} is getting ready." if name else ""
-            self._count_change()
+            self.count_change()
             self._wake()
         if after != before:
             self._document.notify("scene")
@@ -164,7 +164,7 @@ class Viewport:
         """End the motion and disconnect its viewers, because the tab is closed."""
         self.closed = True
         self._stop()
-        self._count_change()
+        self.count_change()
         self._wake()
         self._leave_player()
         self._live = None
@@ -232,7 +232,8 @@ class Viewport:
         with self._swapping:
             self._stale = True
 
-    def _count_change(self) -> None:
+    def count_change(self) -> None:
+        """Count a visible change, from any thread."""
         with self._swapping:
             self.version += 1
 
@@ -247,7 +248,7 @@ class Viewport:
             await self._keep_moving()
         except Exception as error:  # an error in the program: tell the user
             self.fault = f"the live cloth has stopped ({type(error).__name__}); reload the page"
-            self._count_change()
+            self.count_change()
             self._wake()
             raise
 
@@ -261,7 +262,7 @@ class Viewport:
                 ticks = 0  # show the first picture before the kernels are compiled
             fault, version = self.fault, self.version
             if not self.request.paused or self._stale or self._inputs:
-                await self._run_in_thread(partial(self._turn, ticks))
+                await self._run_in_thread(partial(self.turn, ticks))
             if self.version != version:
                 self._wake()
             if self.fault != fault or (not self._keys and self._has_steered()):
@@ -294,11 +295,11 @@ class Viewport:
             done, _ = await asyncio.wait({turn}, timeout=LONG)
             if not done and not self.note:
                 self.note = "One moment: the first use needs some preparation."
-                self._count_change()
+                self.count_change()
                 self._wake()
                 await turn
                 self.note = ""
-                self._count_change()
+                self.count_change()
             await turn
         finally:
             turn.cancel()
@@ -315,7 +316,8 @@ class Viewport:
         self._document.adjust(wind=now[0], direction=now[1])
         return True
 
-    def _turn(self, ticks: int) -> None:
+    def turn(self, ticks: int) -> None:
+        """Apply the queued changes, then advance the motion by some ticks."""
         with self._turning:
             self._change(ticks)
 
@@ -337,7 +339,7 @@ class Viewport:
             self.fault = self._pack_store.with_names(str(error))
             self.note, moved = "", True
         if stale or inputs or moved:
-            self._count_change()
+            self.count_change()
 
     def _move(self, ticks: int) -> bool:
         if self._live is not None:

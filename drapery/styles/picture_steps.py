@@ -81,7 +81,7 @@ def outline(
 
     levels = np.arange(256)[None] * (1 - darken) + np.array(rgb_of(colour))[:, None] * darken
     # A line of one pixel is as it is; others grow by discs.
-    reach, table = _disc((width * canvas.grid - 1) / 2), np.rint(levels).astype(np.uint8)
+    reach, table = disc_widths((width * canvas.grid - 1) / 2), np.rint(levels).astype(np.uint8)
     limits = np.array([depth, cos(np.radians(crease))], np.float32)
     source, drawn, found = _own_words(canvas), canvas.words(), canvas.buffers
     if materials:
@@ -274,7 +274,7 @@ def _moved(values: NDArray[np.int32], down: int, right: int) -> NDArray[np.int32
     return result
 
 
-def _disc(radius: float) -> NDArray[np.int64]:
+def disc_widths(radius: float) -> NDArray[np.int64]:
     """How far a disc reaches to each side, in each row from its top to its foot [pixels]."""
     height = max(0, int(radius))
     rows = np.arange(-height, height + 1)

@@ -40,7 +40,7 @@ def layer_notes(banner: Banner, packs: Packs) -> list[LayerNote]:
     names += [f"{layer.pattern}, {layer.dye}" for layer in banner.layers]
     sheets = [texels for texels, _ in flag_layers(banner, packs)]
     return [
-        {"name": name, "face": _pack(FLAG_REGIONS["front"].crop(sheet))}
+        {"name": name, "face": packed_face(FLAG_REGIONS["front"].crop(sheet))}
         for name, sheet in zip(names, sheets, strict=True)
     ]
 
@@ -92,7 +92,7 @@ class _Stack:
     @cached_property
     def faces(self) -> list[Pixels | None]:
         """The face of each layer; None where another program has changed the note."""
-        return [_unpack(note["face"]) for note in self.notes]
+        return [unpacked_face(note["face"]) for note in self.notes]
 
     def hides(self, place: int) -> bool:
         """Whether the layers above one of them hide all of its front face."""
@@ -154,11 +154,12 @@ def _moved(old: Pixels, new: Pixels, down: int, right: int) -> bool:
     return overlap_same and not np.array_equal(shape, new[..., 3] > 0)
 
 
-def _pack(face: Pixels) -> str:
+def packed_face(face: Pixels) -> str:
+    """A PNG file of the pixels, as a text in base 64."""
     return base64.b64encode(png_bytes(face)).decode("ascii")
 
 
-def _unpack(face: str) -> Pixels | None:
+def unpacked_face(face: str) -> Pixels | None:
     """The pixels of a packed face; None if it is damaged."""
     try:
         picture = decode_picture(base64.b64decode(face), "the golden's layer", ("PNG",))

@@ -41,9 +41,9 @@ def probe_egl() -> ProbeResult:
 
     Graphics cards are listed before software, but a driver may be installed without a card.
     """
-    if not any(map(_loaded, ("libGL.so.1", "libOpenGL.so.0"))):
+    if not any(map(loaded_library, ("libGL.so.1", "libOpenGL.so.0"))):
         return ProbeResult(False, "libGL.so.1 is missing")
-    egl = _loaded("libEGL.so.1")
+    egl = loaded_library("libEGL.so.1")
     if egl is None:
         return ProbeResult(False, "libEGL.so.1 is missing")
     wanted = os.environ.get("EGL_DEVICE_ID", "")
@@ -57,7 +57,7 @@ def probe_egl() -> ProbeResult:
 def probe_osmesa() -> ProbeResult:
     """Whether Mesa's off-screen library is installed."""
     for name in ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"):
-        library = _loaded(name)
+        library = loaded_library(name)
         if library is not None and hasattr(library, "OSMesaCreateContextAttribs"):
             return ProbeResult(True)
     return ProbeResult(False, "libOSMesa.so.8 is missing")
@@ -143,7 +143,8 @@ def _osmesa_platform() -> Any:
     return OSMesaPlatform(1, 1)
 
 
-def _loaded(name: str) -> ctypes.CDLL | None:
+def loaded_library(name: str) -> ctypes.CDLL | None:
+    """A library of the system; None if it is not installed."""
     try:
         return ctypes.CDLL(name)
     except OSError:  # it is not installed

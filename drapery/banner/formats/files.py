@@ -125,7 +125,7 @@ def _in_world(folder: Path, on_error: OnError) -> Iterator[FoundBanner]:
             " save the part that you want with a structure block and give the .mcstructure"
         )
     found = False
-    for path in _world_files(folder, on_error):
+    for path in world_files(folder, on_error):
         found = True
         try:
             yield from _in_file(path, path.relative_to(folder).as_posix(), on_error)
@@ -146,7 +146,7 @@ def unreadable(on_error: OnError) -> Callable[[OSError], None]:
     return report
 
 
-def _world_files(folder: Path, on_error: OnError) -> Iterator[Path]:
+def world_files(folder: Path, on_error: OnError) -> Iterator[Path]:
     """The files of a world that may hold banners, folder by folder in a fixed order.
 
     Its data packs have a reader of their own.

@@ -111,7 +111,7 @@ def is_known(text: str) -> bool:
     if not may_be(text):
         return False
     text = _small(text)
-    return any(_parse(text, language) for language in _possible(text))
+    return any(_parse(text, language) for language in possible_languages(text))
 
 
 @cache
@@ -127,7 +127,7 @@ def _starts() -> tuple[dict[str, set[str]], dict[str, set[str]]]:
     return names, stems
 
 
-def _possible(text: str) -> list[Language]:
+def possible_languages(text: str) -> list[Language]:
     """The languages that can have a text in small letters, by the first of its words.
 
     One table of all languages is asked, since most texts are of none.
@@ -161,7 +161,7 @@ def parse(text: str) -> Banner:
     if not may_be(text):
         raise DesignError(f"{shown(text)}: not a name that the game shows in a known language")
     text = _small(text)
-    read = {language.name: _parse(text, language) for language in _possible(text)}
+    read = {language.name: _parse(text, language) for language in possible_languages(text)}
     found = {name: banner for name, banner in read.items() if isinstance(banner, Banner)}
     if len(set(found.values())) > 1:
         raise DesignError(

@@ -29,7 +29,7 @@ def build(session: Session) -> None:
     choice = FileChoice()
     translated_text("Make a file", "h2").classes("heading")
     fit = build_options(session, choice)
-    _ExportForm(session, choice)
+    ExportForm(session, choice)
     translated_text("Link and code", "h2").classes("heading")
     copy = _copies(session, choice)
 
@@ -42,7 +42,7 @@ def build(session: Session) -> None:
     session.follow(show, "settings", "scene")
 
 
-class _ExportForm:
+class ExportForm:
     """The button, the progress of its export, and a link to the finished file."""
 
     def __init__(self, session: Session, choice: FileChoice) -> None:
@@ -55,13 +55,13 @@ class _ExportForm:
         self._link.set_visibility(False)
         self._warnings = ui.element("div").props("role=status")
         with ui.element("div").classes("going") as self._going:
-            self._bar = ui.element("progress").props("max=1")
-            self._bar.props["aria-label"] = translated("Progress")
+            self.bar = ui.element("progress").props("max=1")
+            self.bar.props["aria-label"] = translated("Progress")
             self._words = text_element("").classes("hint").props("role=status")
             button("Stop the export", self._stop, text="Cancel")
         self._going.set_visibility(False)
         self._client = context.client
-        self._timer = ui.timer(TICK, self._tick, active=False)
+        self._timer = ui.timer(TICK, self.tick, active=False)
         session.listen(self._hide_stale, "sketch", "settings", "packs", "scene")
         choice.changed.append(self._hide_stale)
 
@@ -98,7 +98,7 @@ class _ExportForm:
         if self._own.current is not None:
             self._own.current.stop()
 
-    async def _tick(self) -> None:
+    async def tick(self) -> None:
         """Follow, and wait until the page has shown it.
 
         Each change makes a page draw itself anew. On a loaded machine that takes longer than a
@@ -113,14 +113,15 @@ class _ExportForm:
         runs = work is not None and work.state == "running"
         self._going.set_visibility(runs)
         if work is not None and runs:
-            self._show_progress(work)
+            self.show_progress(work)
             return
         self._timer.deactivate()
         if work is not None:
             self._finish(work)
 
-    def _show_progress(self, work: Export) -> None:
-        set_props(self._bar, {"value": work.share})
+    def show_progress(self, work: Export) -> None:
+        """Show how much of an export is done."""
+        set_props(self.bar, {"value": work.share})
         still = translated("drawing" if work.total == 1 else "moving the cloth")
         frames = translated("{done} of {total} frames").format(done=work.done, total=work.total)
         self._words.set_text(frames if work.done else still)

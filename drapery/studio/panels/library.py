@@ -60,9 +60,9 @@ class LibraryPanel:
         self._more.set_visibility(False)
         self._whole_library()
         session.follow(self._follow, "sketch")
-        session.listen(lambda: background_tasks.create(self._refresh()), "library")
+        session.listen(lambda: background_tasks.create(self.refresh()), "library")
         # Load the database after the first picture, which does not need it.
-        ui.timer(LATER, self._refresh, once=True)
+        ui.timer(LATER, self.refresh, once=True)
 
     def _form(self) -> None:
         session = self._session
@@ -113,7 +113,7 @@ class LibraryPanel:
         self._words = self._words if words is None else words
         self._tag = self._tag if tag is None else tag
         self._limit = PAGE
-        background_tasks.create(self._refresh())
+        background_tasks.create(self.refresh())
 
     def _whole_library(self) -> None:
         translated_text("The whole library", "h2")
@@ -134,7 +134,7 @@ class LibraryPanel:
         """Call the library in a thread; after an error, notify the user and return None."""
         return await called_in_thread(self._client, lambda: act(self._session.library()))
 
-    async def _refresh(self) -> None:
+    async def refresh(self) -> None:
         self._asked += 1
         number = self._asked
         wanted, tag, limit = self._words, self._tag or None, self._limit
@@ -214,7 +214,7 @@ class LibraryPanel:
             if before is not None:
                 line = _said("Changed {title}", before.title)
                 self._offer(line, "Keep the old one too", before)
-        await self._refresh()
+        await self.refresh()
 
     async def _open_design(self, number: int) -> None:
         design = await self._do(lambda library: library.get(number))
@@ -241,7 +241,7 @@ class LibraryPanel:
         async def save() -> None:
             if await self._do(change):
                 dialog.close()
-                await self._refresh()
+                await self.refresh()
 
         def line(label: str, name: str, maximum: int) -> None:
             get, change = partial(wanted.get, name), partial(wanted.__setitem__, name)
@@ -267,7 +267,7 @@ class LibraryPanel:
         self._follow()
         with self._client:
             self._offer(_said("Deleted {title}", gone.title), "Put it back", gone)
-        await self._refresh()
+        await self.refresh()
         # The pressed button no longer exists, so move the keyboard's focus to the undo button.
         self._client.run_javascript("document.querySelector('.undo button')?.focus()")
 
@@ -282,7 +282,7 @@ class LibraryPanel:
     async def _put_back(self, gone: "Design") -> None:
         if await self._do(lambda library: library.add(gone)):
             self._undo.set_visibility(False)
-            await self._refresh()
+            await self.refresh()
 
     async def _import(self, number: int) -> None:
         upload = self._session.uploads.get(number, "library")
@@ -291,11 +291,11 @@ class LibraryPanel:
         if counts is not None:
             with self._client:
                 show_notice(ADDED.format(*counts))
-            await self._refresh()
+            await self.refresh()
 
     async def _show_more(self) -> None:
         self._limit += PAGE
-        await self._refresh()
+        await self.refresh()
 
 
 def _split(text: str) -> tuple[str, ...]:
