@@ -17,6 +17,7 @@ from tracing import PROCESSES, trace_no_compiler
 from workers import (
     pytest_cmdline_main,
     pytest_collection_modifyitems,
+    pytest_ignore_collect,
     pytest_report_header,
     pytest_sessionstart,
     pytest_xdist_auto_num_workers,
@@ -36,6 +37,7 @@ __all__ = [
     "firefox",
     "pytest_cmdline_main",
     "pytest_collection_modifyitems",
+    "pytest_ignore_collect",
     "pytest_report_header",
     "pytest_sessionstart",
     "pytest_xdist_auto_num_workers",

@@ -2,11 +2,14 @@
 
 import json
 
+import pytest
 from conftest import Run
 
 from drapery import Banner
 from drapery.banner import PATTERN_NAMES, crafting_items
 from drapery.banner.pattern_items import PATTERN_ITEMS
+
+pytestmark = pytest.mark.quick
 
 
 def counts(text: str, *, consumed: bool) -> dict[str, int]:

@@ -150,6 +150,7 @@ SAME = [
 ]
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("text", SAME)
 def test_every_age_and_spelling_of_one_banner_is_that_banner(text: str):
     assert parse_banner(text) == CREEPER

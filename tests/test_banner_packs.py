@@ -22,6 +22,8 @@ from drapery.banner.packs import open_packs
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import PackError
 
+pytestmark = pytest.mark.quick
+
 
 def test_without_packs_all_is_our_own_art() -> None:
     packs = open_packs()

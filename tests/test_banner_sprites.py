@@ -24,6 +24,8 @@ from drapery.banner.sprites import (
     tint,
 )
 
+pytestmark = pytest.mark.quick
+
 
 def rounded(value: Fraction) -> int:
     assert value % 1 != Fraction(1, 2), "no tie can occur"

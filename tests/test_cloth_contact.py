@@ -38,6 +38,7 @@ from drapery.mesh import Array
 from drapery.settings import SolverName
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("name", get_args(SolverName))
 def test_a_banner_stays_out_of_its_pole_and_bar_with_every_solver(name: str) -> None:
     cloth = flag((5, 9))
@@ -63,6 +64,7 @@ def test_cloth_that_is_thicker_than_a_cell_is_not_torn_from_its_pins(name: str) 
     assert moving.state.positions[0, :, 1].min() < -36 * UNIT  # it hangs down
 
 
+@pytest.mark.quick
 def test_many_steps_in_one_call_are_the_same_as_one_each() -> None:
     wind = Wind((0.0, 0.0, -6.0))
     for cloth in (flag((5, 9)), flag((17, 9))):
@@ -74,6 +76,7 @@ def test_many_steps_in_one_call_are_the_same_as_one_each() -> None:
         assert np.allclose(once.state.positions, each.state.positions, atol=1e-5)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("method", [SolverDesbrun, SolverXPBD])
 def test_a_crowd_in_contact_equals_its_cloths_alone_on_any_threads(method: Any) -> None:
     # More cloths than a register holds; gusts press some of them against the pole.

@@ -84,6 +84,7 @@ def test_free_fall_is_a_parabola(name):
     np.testing.assert_allclose(fallen.velocities[0, :, 1], -G * seconds, rtol=1e-9)
 
 
+@pytest.mark.quick
 @both
 def test_drag_ends_a_fall_at_g_over_its_rate(name):
     cloth = grid(3, 3, 1, 1, pins="none")
@@ -91,6 +92,7 @@ def test_drag_ends_a_fall_at_g_over_its_rate(name):
     np.testing.assert_allclose(fallen.velocities[0, :, 1], -G / 2.0, rtol=0.02)
 
 
+@pytest.mark.quick
 @both
 def test_drag_of_the_fabric_adds_to_that_of_the_forces(name):
     plain = grid(3, 3, 1, 1, pins="none")
@@ -101,6 +103,7 @@ def test_drag_of_the_fabric_adds_to_that_of_the_forces(name):
     np.testing.assert_array_equal(fallen.positions, expected.positions)
 
 
+@pytest.mark.quick
 @both
 @pytest.mark.parametrize("make", [grid_sheet, disc_sheet])
 def test_still_air_slows_a_moving_sheet_by_pressure_times_area(name, make):
@@ -118,6 +121,7 @@ def test_still_air_slows_a_moving_sheet_by_pressure_times_area(name, make):
     )
 
 
+@pytest.mark.quick
 @both
 def test_the_error_of_an_oscillator_is_of_first_order(name):
     cloth, seconds = spring(), 1.0
@@ -173,6 +177,7 @@ def test_a_hanging_chain_swings_at_the_period_of_bessels_zero(name):
     assert period == pytest.approx(2 * np.pi / (2.4048 / 2 * np.sqrt(G / longer)), rel=0.03)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("solver", [SolverDesbrun(sweeps=40), SolverXPBD(substeps=40)])
 def test_a_chain_between_two_pins_hangs_as_a_catenary(solver):
     count, length, span = 41, 1.0, 0.7
@@ -195,6 +200,7 @@ def test_a_chain_between_two_pins_hangs_as_a_catenary(solver):
     assert np.abs(y - exact).max() < 0.01 * span
 
 
+@pytest.mark.quick
 @both
 def test_a_free_cloth_keeps_its_linear_momentum(name):
     cloth = grid(6, 7, 1, 1, pins="none")
@@ -211,6 +217,7 @@ def spin_of(cloth, state):
     return (mass * np.cross(x, state.velocities[0])).sum(0)
 
 
+@pytest.mark.quick
 def test_the_exact_correction_keeps_angular_momentum_better_than_the_papers_and_than_none():
     cloth = grid(6, 7, 1, 1, pins="none", fabric=Fabric(6.0))
     start = shaken(cloth)
@@ -223,6 +230,7 @@ def test_the_exact_correction_keeps_angular_momentum_better_than_the_papers_and_
     assert drift["exact"] < drift["paper"] < drift["none"]
 
 
+@pytest.mark.quick
 @both
 def test_angular_momentum_drifts_less_in_smaller_steps(name):
     cloth = grid(6, 7, 1, 1, pins="none")
@@ -236,6 +244,7 @@ def test_angular_momentum_drifts_less_in_smaller_steps(name):
     assert drift[1] < 0.5 * drift[0]
 
 
+@pytest.mark.quick
 @both
 @pytest.mark.parametrize("pins", ["top", "corners"])
 def test_a_cloth_at_rest_does_not_move_without_wind(name, pins):

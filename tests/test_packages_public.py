@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.quick
+
 PACKAGES = [
     *("drapery.banner", "drapery.render", "drapery.scenes"),
     *("drapery.comparison", "drapery.garments", "drapery.sheets", "drapery.testing"),

@@ -21,6 +21,8 @@ from drapery.testing.golden import (
     encode,
 )
 
+pytestmark = pytest.mark.quick
+
 
 def noise(seed: int, height: int = 12, width: int = 9) -> Frame:
     random = np.random.default_rng(seed)
