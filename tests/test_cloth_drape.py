@@ -164,8 +164,9 @@ def test_solvers_are_found_by_name_with_their_options():
         solver("pbd", glue=1)
 
 
-def test_the_page_on_solvers_runs_as_it_is_written():
-    page = (Path(__file__).parents[1] / "docs" / "explanation" / "solvers.md").read_text("utf-8")
+def test_the_pages_on_solvers_and_contact_run_as_they_are_written():
+    folder = Path(__file__).parents[1] / "docs" / "explanation"
+    page = "".join((folder / f"{name}.md").read_text("utf-8") for name in ("solvers", "contact"))
     names: dict[str, object] = {}
     for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
         exec(block.replace("180", "3"), names)

@@ -40,7 +40,7 @@ class Collisions:
         it pass through itself. Cloths that `sew` joins without seams meet each other.
     limit: longest length of a structural spring over its rest length. Springs that colliders
         stretched more are shortened, and colliders are applied again. Boxes and planes are met
-        without it, see docs/explanation/solvers.md.
+        without it, see docs/explanation/contact.md.
     rounds: how often colliders are applied in a step.
     threads: None for as many as there are processors.
 
