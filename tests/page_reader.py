@@ -2,14 +2,16 @@
 
 import atexit
 import json
+import random
 import shutil
 import subprocess
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from drapery.banner import Banner
+from drapery.banner import DYE_NAMES, PATTERN_NAMES, Banner, Layer
 
 NODE = shutil.which("node")
 COMPONENT = Path(__file__).parents[1] / "drapery" / "web" / "component"
@@ -115,3 +117,19 @@ def plain(banner: Banner) -> dict[str, object]:
     """A banner as the component's designs are."""
     layers = [{"pattern": layer.pattern, "dye": layer.dye} for layer in banner.layers]
     return {"base": banner.base, "layers": layers, "kind": banner.kind}
+
+
+def some_banners() -> Iterator[Banner]:
+    """Every pattern and dye, and designs of any number of layers."""
+    for start in range(0, len(PATTERN_NAMES), 8):
+        layers = [Layer(name, DYE_NAMES[n]) for n, name in enumerate(PATTERN_NAMES[start:][:8])]
+        yield Banner(DYE_NAMES[start // 3], tuple(layers))
+    chance = random.Random(4)
+    for count in range(17):
+        layers = [
+            Layer(chance.choice(PATTERN_NAMES), chance.choice(DYE_NAMES)) for _ in range(count)
+        ]
+        yield Banner(
+            chance.choice(DYE_NAMES), tuple(layers), "shield" if count % 3 == 2 else "banner"
+        )
+    yield Banner("white", (Layer("acme:anvil", "red"),))

@@ -6,8 +6,7 @@ from itertools import cycle
 import fuzz_targets
 import fuzzing
 import pytest
-from page_reader import NODE, plain, read_in_page
-from test_web_designs import some_banners
+from page_reader import NODE, plain, read_in_page, some_banners
 
 from drapery import Banner, DesignError
 from drapery.banner import FORMS, ItemDetails, parse_banners, write_banner, write_give

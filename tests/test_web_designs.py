@@ -1,15 +1,14 @@
 """Pages read designs as Python does: the same texts give the same banners, or both refuse them."""
 
-import random
 from collections.abc import Iterator
 
 import fuzz_targets
 import fuzzing
 import pytest
-from page_reader import COMPONENT, NODE, Answer, plain, read_in_page
+from page_reader import COMPONENT, NODE, Answer, plain, read_in_page, some_banners
 
-from drapery import Banner, DesignError, Layer
-from drapery.banner import DYE_NAMES, FORMS, PATTERN_NAMES, write_banner
+from drapery import Banner, DesignError
+from drapery.banner import FORMS, write_banner
 from drapery.banner.tables import MAX_TEXT
 from drapery.web import tables
 
@@ -96,22 +95,6 @@ REFUSED = (
 )
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
-
-
-def some_banners() -> Iterator[Banner]:
-    """Every pattern and dye, and designs of any number of layers."""
-    for start in range(0, len(PATTERN_NAMES), 8):
-        layers = [Layer(name, DYE_NAMES[n]) for n, name in enumerate(PATTERN_NAMES[start:][:8])]
-        yield Banner(DYE_NAMES[start // 3], tuple(layers))
-    chance = random.Random(4)
-    for count in range(17):
-        layers = [
-            Layer(chance.choice(PATTERN_NAMES), chance.choice(DYE_NAMES)) for _ in range(count)
-        ]
-        yield Banner(
-            chance.choice(DYE_NAMES), tuple(layers), "shield" if count % 3 == 2 else "banner"
-        )
-    yield Banner("white", (Layer("acme:anvil", "red"),))
 
 
 def texts() -> Iterator[str]:
