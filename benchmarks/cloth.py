@@ -284,8 +284,7 @@ def main() -> None:
     )
     asked = words.parse_args()
     if asked.endurance:
-        from benchmarks.endurance import endure_all
-        from benchmarks.endurance import show as show_endured
+        from benchmarks.endurance import endure_all, show as show_endured
 
         found: list[Any] = endure_all(asked.endurance)
         print(*map(show_endured, found), sep="\n")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import griffe
 from parameter_lists import ParameterLists
+from public_names import PublicNames
 
 ROOT = Path(__file__).resolve().parent.parent
 WIDTH = 88
@@ -16,7 +17,7 @@ WIDTH = 88
 
 
 def names_of(module: str) -> str:
-    """What a module is, and a section of each name in its `__all__` with those of its members."""
+    """What a module is, and a section of each public name with those of its members."""
     home = _package()
     if module != "drapery":
         home = home[module.removeprefix("drapery.")]
@@ -35,7 +36,7 @@ def _package() -> griffe.Module:
     """The package as it is installed, from its sources."""
     with tempfile.TemporaryDirectory() as folder:
         copy_sources(Path(folder, "drapery"))
-        extensions = griffe.load_extensions(ParameterLists())
+        extensions = griffe.load_extensions(ParameterLists(), PublicNames())
         loaded = griffe.load(
             "drapery", search_paths=[folder], try_relative_path=False, extensions=extensions
         )

@@ -15,7 +15,7 @@ are first used.
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if not Path(__path__[0], "render").is_dir():
     # In a checkout `assets` and `render` lie beside this package, and Python that is started there
@@ -23,74 +23,33 @@ if not Path(__path__[0], "render").is_dir():
     __path__.append(str(Path(__path__[0]).parent))
 
 if TYPE_CHECKING:
-    from drapery.banner.design import Banner, Layer
-    from drapery.banner.formats import FoundBanner, parse_banners, read_designs
-    from drapery.banner.packs import Packs
-    from drapery.cloth import simulate
-    from drapery.comparison.pairs import Comparison, compare
-    from drapery.errors import (
-        BackendError,
-        DesignError,
-        DraperyError,
-        OptionError,
-        OutputError,
-        PackError,
+    from drapery.banner.design import Banner as Banner, Layer as Layer
+    from drapery.banner.formats import (
+        FoundBanner as FoundBanner,
+        parse_banners as parse_banners,
+        read_designs as read_designs,
     )
-    from drapery.pictures import animate, draw, draw_face, iter_frames, save_model
-    from drapery.render.frame import Animation, Frame
-    from drapery.settings import Settings
-    from drapery.style.extrusion import extrude
-
-__version__: str = "0.1.0"
-"""The version, which `pyproject.toml` repeats for the distribution `drapery-mc`."""
-
-__all__ = [
-    "Animation",
-    "BackendError",
-    "Banner",
-    "Comparison",
-    "DesignError",
-    "DraperyError",
-    "FoundBanner",
-    "Frame",
-    "Layer",
-    "OptionError",
-    "OutputError",
-    "PackError",
-    "Packs",
-    "Settings",
-    "__version__",
-    "animate",
-    "compare",
-    "draw",
-    "draw_face",
-    "extrude",
-    "iter_frames",
-    "parse_banners",
-    "read_designs",
-    "save_model",
-    "simulate",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "banner.design": ("Banner", "Layer"),
-        "banner.formats": ("FoundBanner", "parse_banners", "read_designs"),
-        "banner.packs": ("Packs",),
-        "cloth": ("simulate",),
-        "comparison.pairs": ("Comparison", "compare"),
-        "errors": (
-            "BackendError",
-            "DesignError",
-            "DraperyError",
-            "OptionError",
-            "OutputError",
-            "PackError",
-        ),
-        "pictures": ("animate", "draw", "draw_face", "iter_frames", "save_model"),
-        "render.frame": ("Animation", "Frame"),
-        "settings": ("Settings",),
-        "style.extrusion": ("extrude",),
-    },
-)
+    from drapery.banner.packs import Packs as Packs
+    from drapery.cloth import simulate as simulate
+    from drapery.comparison.pairs import Comparison as Comparison, compare as compare
+    from drapery.errors import (
+        BackendError as BackendError,
+        DesignError as DesignError,
+        DraperyError as DraperyError,
+        OptionError as OptionError,
+        OutputError as OutputError,
+        PackError as PackError,
+    )
+    from drapery.pictures import (
+        animate as animate,
+        draw as draw,
+        draw_face as draw_face,
+        iter_frames as iter_frames,
+        save_model as save_model,
+    )
+    from drapery.render.frame import Animation as Animation, Frame as Frame
+    from drapery.settings import Settings as Settings
+    from drapery.style.extrusion import extrude as extrude
+    from drapery.version import __version__ as __version__
+else:
+    import_lazily(__name__)

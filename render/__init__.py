@@ -17,162 +17,109 @@ right-handed with y up. Names are loaded when they are first used.
 
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
-    from drapery.mesh import Mesh, face_normals, make_mesh, vertex_normals
-    from drapery.render.backends import DrawScene, backend, backend_names
-    from drapery.render.buffers import Buffers
-    from drapery.render.camera import Camera, clip_matrix, projection_matrix, view_matrix
-    from drapery.render.contact import contact_sheet, contact_table, on_checker, stack_frames
-    from drapery.render.contact_images import checkered, contact_strips
-    from drapery.render.debug import (
-        at_particles,
-        edges_model,
-        normals_model,
-        pins_model,
-        spring_stretch,
-        springs_model,
-        stretch_model,
+    from drapery.mesh import (
+        Mesh as Mesh,
+        face_normals as face_normals,
+        make_mesh as make_mesh,
+        vertex_normals as vertex_normals,
     )
-    from drapery.render.doctor import BackendReport, backend_report
-    from drapery.render.drawing import Colour, draw_models, draw_scene, make_model
-    from drapery.render.drawlist import DrawList, Topology, draw_list, make_topology
-    from drapery.render.encode import check_quality, check_target, save_animation, save_frame
-    from drapery.render.encode.output import check_writable, make_folder, replacing
-    from drapery.render.encode.png import apng_bytes, png_bytes
-    from drapery.render.encode.quick_png import quick_png_bytes, quick_png_of_strips
-    from drapery.render.encode.webp import webp_bytes
-    from drapery.render.export import save_model
-    from drapery.render.flatten import composite_layers
-    from drapery.render.frame import Animation, Frame, Pixels
-    from drapery.render.identity_cache import IdentityCache
-    from drapery.render.light import GAME_LIGHT, UNLIT, Light, lit_at
-    from drapery.render.lines import dot_model, line_model
-    from drapery.render.materials import MaterialTables
-    from drapery.render.relief import bake_normal_maps
-    from drapery.render.resize import enlarge
-    from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
-    from drapery.render.shadow import contact_shadow
-    from drapery.render.soft import draw_buffers
-    from drapery.render.views import VIEWS, View, find_view, frame_points, frame_view, turntable
-
-__all__ = [
-    "GAME_LIGHT",
-    "UNLIT",
-    "VIEWS",
-    "Animation",
-    "BackendReport",
-    "Buffers",
-    "Camera",
-    "Colour",
-    "DrawList",
-    "DrawScene",
-    "Frame",
-    "IdentityCache",
-    "Light",
-    "Material",
-    "MaterialTables",
-    "Mesh",
-    "Model",
-    "Pixels",
-    "Scene",
-    "Texels",
-    "TextureLayer",
-    "Topology",
-    "View",
-    "apng_bytes",
-    "at_particles",
-    "backend",
-    "backend_names",
-    "backend_report",
-    "bake_normal_maps",
-    "check_quality",
-    "check_target",
-    "check_writable",
-    "checkered",
-    "clip_matrix",
-    "composite_layers",
-    "contact_shadow",
-    "contact_sheet",
-    "contact_strips",
-    "contact_table",
-    "dot_model",
-    "draw_buffers",
-    "draw_list",
-    "draw_models",
-    "draw_scene",
-    "edges_model",
-    "enlarge",
-    "face_normals",
-    "find_view",
-    "frame_points",
-    "frame_view",
-    "line_model",
-    "lit_at",
-    "make_folder",
-    "make_mesh",
-    "make_model",
-    "make_topology",
-    "normals_model",
-    "on_checker",
-    "pins_model",
-    "png_bytes",
-    "projection_matrix",
-    "quick_png_bytes",
-    "quick_png_of_strips",
-    "replacing",
-    "save_animation",
-    "save_frame",
-    "save_model",
-    "spring_stretch",
-    "springs_model",
-    "stack_frames",
-    "stretch_model",
-    "turntable",
-    "vertex_normals",
-    "view_matrix",
-    "webp_bytes",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "mesh": ("Mesh", "face_normals", "make_mesh", "vertex_normals"),
-        "render.backends": ("DrawScene", "backend", "backend_names"),
-        "render.buffers": ("Buffers",),
-        "render.camera": ("Camera", "clip_matrix", "projection_matrix", "view_matrix"),
-        "render.contact": ("contact_sheet", "contact_table", "on_checker", "stack_frames"),
-        "render.contact_images": ("checkered", "contact_strips"),
-        "render.debug": (
-            "at_particles",
-            "edges_model",
-            "normals_model",
-            "pins_model",
-            "spring_stretch",
-            "springs_model",
-            "stretch_model",
-        ),
-        "render.doctor": ("BackendReport", "backend_report"),
-        "render.drawing": ("Colour", "draw_models", "draw_scene", "make_model"),
-        "render.drawlist": ("DrawList", "Topology", "draw_list", "make_topology"),
-        "render.encode": ("check_quality", "check_target", "save_animation", "save_frame"),
-        "render.encode.output": ("check_writable", "make_folder", "replacing"),
-        "render.encode.png": ("apng_bytes", "png_bytes"),
-        "render.encode.quick_png": ("quick_png_bytes", "quick_png_of_strips"),
-        "render.encode.webp": ("webp_bytes",),
-        "render.export": ("save_model",),
-        "render.flatten": ("composite_layers",),
-        "render.frame": ("Animation", "Frame", "Pixels"),
-        "render.identity_cache": ("IdentityCache",),
-        "render.light": ("GAME_LIGHT", "UNLIT", "Light", "lit_at"),
-        "render.lines": ("dot_model", "line_model"),
-        "render.materials": ("MaterialTables",),
-        "render.relief": ("bake_normal_maps",),
-        "render.resize": ("enlarge",),
-        "render.scene": ("Material", "Model", "Scene", "Texels", "TextureLayer"),
-        "render.shadow": ("contact_shadow",),
-        "render.soft": ("draw_buffers",),
-        "render.views": ("VIEWS", "View", "find_view", "frame_points", "frame_view", "turntable"),
-    },
-)
+    from drapery.render.backends import (
+        DrawScene as DrawScene,
+        backend as backend,
+        backend_names as backend_names,
+    )
+    from drapery.render.buffers import Buffers as Buffers
+    from drapery.render.camera import (
+        Camera as Camera,
+        clip_matrix as clip_matrix,
+        projection_matrix as projection_matrix,
+        view_matrix as view_matrix,
+    )
+    from drapery.render.contact import (
+        contact_sheet as contact_sheet,
+        contact_table as contact_table,
+        on_checker as on_checker,
+        stack_frames as stack_frames,
+    )
+    from drapery.render.contact_images import (
+        checkered as checkered,
+        contact_strips as contact_strips,
+    )
+    from drapery.render.debug import (
+        at_particles as at_particles,
+        edges_model as edges_model,
+        normals_model as normals_model,
+        pins_model as pins_model,
+        spring_stretch as spring_stretch,
+        springs_model as springs_model,
+        stretch_model as stretch_model,
+    )
+    from drapery.render.doctor import (
+        BackendReport as BackendReport,
+        backend_report as backend_report,
+    )
+    from drapery.render.drawing import (
+        Colour as Colour,
+        draw_models as draw_models,
+        draw_scene as draw_scene,
+        make_model as make_model,
+    )
+    from drapery.render.drawlist import (
+        DrawList as DrawList,
+        Topology as Topology,
+        draw_list as draw_list,
+        make_topology as make_topology,
+    )
+    from drapery.render.encode import (
+        check_quality as check_quality,
+        check_target as check_target,
+        save_animation as save_animation,
+        save_frame as save_frame,
+    )
+    from drapery.render.encode.output import (
+        check_writable as check_writable,
+        make_folder as make_folder,
+        replacing as replacing,
+    )
+    from drapery.render.encode.png import apng_bytes as apng_bytes, png_bytes as png_bytes
+    from drapery.render.encode.quick_png import (
+        quick_png_bytes as quick_png_bytes,
+        quick_png_of_strips as quick_png_of_strips,
+    )
+    from drapery.render.encode.webp import webp_bytes as webp_bytes
+    from drapery.render.export import save_model as save_model
+    from drapery.render.flatten import composite_layers as composite_layers
+    from drapery.render.frame import Animation as Animation, Frame as Frame, Pixels as Pixels
+    from drapery.render.identity_cache import IdentityCache as IdentityCache
+    from drapery.render.light import (
+        GAME_LIGHT as GAME_LIGHT,
+        UNLIT as UNLIT,
+        Light as Light,
+        lit_at as lit_at,
+    )
+    from drapery.render.lines import dot_model as dot_model, line_model as line_model
+    from drapery.render.materials import MaterialTables as MaterialTables
+    from drapery.render.relief import bake_normal_maps as bake_normal_maps
+    from drapery.render.resize import enlarge as enlarge
+    from drapery.render.scene import (
+        Material as Material,
+        Model as Model,
+        Scene as Scene,
+        Texels as Texels,
+        TextureLayer as TextureLayer,
+    )
+    from drapery.render.shadow import contact_shadow as contact_shadow
+    from drapery.render.soft import draw_buffers as draw_buffers
+    from drapery.render.views import (
+        VIEWS as VIEWS,
+        View as View,
+        find_view as find_view,
+        frame_points as frame_points,
+        frame_view as frame_view,
+        turntable as turntable,
+    )
+else:
+    import_lazily(__name__)

@@ -9,8 +9,7 @@ from PIL import ImageColor
 
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
-from drapery.render.backends import DrawScene
-from drapery.render.backends import backend as backend_named
+from drapery.render.backends import DrawScene, backend as backend_named
 from drapery.render.camera import Camera
 from drapery.render.frame import Frame
 from drapery.render.light import GAME_LIGHT, Light

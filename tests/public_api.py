@@ -28,13 +28,18 @@ def load() -> griffe.Module:
         sources = shutil.ignore_patterns("__pycache__", "*.png")
         shutil.copytree(ROOT / "drapery", package, ignore=sources)
         shutil.copytree(ROOT / "render", package / "render", ignore=sources)
-        loaded = griffe.load("drapery", search_paths=[folder], try_relative_path=False)
+        loaded = griffe.load(
+            "drapery",
+            search_paths=[folder],
+            try_relative_path=False,
+            extensions=griffe.load_extensions(str(ROOT / "docs" / "public_names.py")),
+        )
     assert isinstance(loaded, griffe.Module)
     return loaded
 
 
 def public_objects(package: griffe.Module) -> Iterator[tuple[str, griffe.Object]]:
-    """The objects in `__all__` of every public module, by their public names, sorted."""
+    """The objects that every public module exports, by their public names, sorted."""
     for module in PUBLIC:
         home = package if module == "drapery" else package[module]
         prefix = "drapery" if module == "drapery" else f"drapery.{module}"

@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 from numba import typeof
 
-from drapery.aot import arguments as arguments_of
-from drapery.aot import library
+from drapery.aot import arguments as arguments_of, library
 from drapery.aot.arguments import pack
 from drapery.jit import entry_point
 from drapery.jit_runtime import add_runtime

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 import world_maker as make
 from cost import limited_cost
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from world_maker import LIME, PLAIN, RED, SHIELD
 
 from drapery.banner.design import Banner

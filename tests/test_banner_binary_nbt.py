@@ -10,8 +10,7 @@ import nbtlib
 import numpy as np
 import pytest
 from cost import limited_cost
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from tracing import untraced
 
 from drapery.banner.formats.files import find_in_bytes

@@ -6,8 +6,7 @@ from pathlib import Path
 import nbtlib
 import pytest
 from conftest import Run
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from world_maker import LIME, PLAIN, RED, SHIELD, parse_nbt
 
 from drapery.banner.design import Banner, Layer

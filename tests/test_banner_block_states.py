@@ -6,8 +6,7 @@ from typing import Any
 
 import pytest
 import world_maker as make
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from world_maker import LIME, PLAIN, RED
 
 from drapery.banner import Banner, parse_banners, write_banner

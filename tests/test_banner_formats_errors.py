@@ -6,8 +6,7 @@ from itertools import accumulate, islice, product
 import fuzzing
 import pytest
 from cost import limited_cost
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from tracing import untraced
 
 from drapery.banner.dyes import DYES

@@ -5,8 +5,7 @@ import re
 import forms_page
 import pytest
 from conftest import Run
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from drapery.banner import BinaryForm, Form, binary_forms
 from drapery.banner.design import Banner, Layer

@@ -12,8 +12,7 @@ from pathlib import Path
 import psutil
 import pytest
 from batch_works import job, work
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from drapery.batch import worker
 from drapery.batch.executor import RetryPolicy, run_jobs

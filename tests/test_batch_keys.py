@@ -10,8 +10,7 @@ from typing import Any
 
 import pytest
 from conftest import GIVE
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from pack_maker import CREEPER, make_pack, plain
 
 from drapery.banner.design import Banner

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 import yaml
 from conftest import Run
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from PIL import Image
 from world_maker import LIME, RED, SHIELD, make_world
 

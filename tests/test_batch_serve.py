@@ -10,8 +10,7 @@ from urllib.parse import quote
 import numpy as np
 import pytest
 from cost import limited_cost
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from pack_maker import CREEPER, make_pack, plain
 from served_pictures import opened, pixels_of
 from starlette.testclient import TestClient

@@ -9,8 +9,7 @@ import numba
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.colliders import (

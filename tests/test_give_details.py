@@ -4,8 +4,7 @@ from typing import Any
 
 import pytest
 from conftest import Run
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from drapery import Banner, DesignError
 from drapery.banner import (

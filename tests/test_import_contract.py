@@ -15,7 +15,7 @@ FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
     *("aot", "compile_beside", "jit_cache", "jit_calls", "jit_codegen", "jit_compiling"),
     *("jit_objects", "jit_runtime", "kernel_sources"),
-    *("lazy", "toml_text", "player_settings"),
+    *("lazy", "toml_text", "player_settings", "version"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
     *("json_text", "model_faults", "file_formats"),
 }
@@ -39,6 +39,7 @@ ALLOWED: dict[str, set[str]] = {
     "jit_compiling": set(),
     "compile_beside": {"jit_codegen"},
     "lazy": set(),
+    "version": set(),
     "jit": {
         "aot",
         "errors",

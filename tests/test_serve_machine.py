@@ -13,8 +13,7 @@ import httpx2 as httpx
 import numpy as np
 import psutil
 import pytest
-from hypothesis import HealthCheck, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, settings, strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule, run_state_machine_as_test
 from pack_maker import CREEPER, META, folder_pack, mcmeta, plain
 from served_pictures import pixels_of

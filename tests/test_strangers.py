@@ -19,8 +19,7 @@ from PIL import Image
 
 from drapery import DraperyError
 from drapery.errors import OptionError
-from drapery.garments import find_garment
-from drapery.garments import model as garment_model
+from drapery.garments import find_garment, model as garment_model
 from drapery.garments.model import GarmentTable
 from drapery.settings import NAMED_OPTIONS
 

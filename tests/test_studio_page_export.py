@@ -16,13 +16,13 @@ from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
 from studio_browser import (
     Studio,
     console_errors,
+    drop as drop_file,
     end_live_cloth,
     lying,
     notices,
     open_page,
     wait_until,
 )
-from studio_browser import drop as drop_file
 
 from drapery.settings import Settings
 from drapery.studio.panels.file_options import difference

@@ -1,8 +1,7 @@
 """Polygons become pixels exactly: every centre inside, none outside, shared edges shared once."""
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from drapery.style.pixel import bounding_box, fill_polygon, outline
 

@@ -4,8 +4,7 @@ import tracemalloc
 
 import pytest
 import yaml
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from drapery import yaml_text
 from drapery.errors import OptionError

@@ -5,40 +5,18 @@
 
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
-    from drapery.batch.batch_run import BatchResult, run_batch
-    from drapery.batch.cluster import LostError
+    from drapery.batch.batch_run import BatchResult as BatchResult, run_batch as run_batch
+    from drapery.batch.cluster import LostError as LostError
     from drapery.batch.manifest import (
-        ManifestError,
-        PictureRequest,
-        read_manifest,
+        ManifestError as ManifestError,
+        PictureRequest as PictureRequest,
+        read_manifest as read_manifest,
     )
-    from drapery.batch.results import OutputRecord
-    from drapery.batch.rows import ManifestFault
-    from drapery.batch.run import Progress
-
-__all__ = [
-    "BatchResult",
-    "LostError",
-    "ManifestError",
-    "ManifestFault",
-    "OutputRecord",
-    "PictureRequest",
-    "Progress",
-    "read_manifest",
-    "run_batch",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "batch.batch_run": ("BatchResult", "run_batch"),
-        "batch.cluster": ("LostError",),
-        "batch.manifest": ("ManifestError", "PictureRequest", "read_manifest"),
-        "batch.results": ("OutputRecord",),
-        "batch.rows": ("ManifestFault",),
-        "batch.run": ("Progress",),
-    },
-)
+    from drapery.batch.results import OutputRecord as OutputRecord
+    from drapery.batch.rows import ManifestFault as ManifestFault
+    from drapery.batch.run import Progress as Progress
+else:
+    import_lazily(__name__)

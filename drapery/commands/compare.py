@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.compare_folders import REPORTS, folders_of
-from drapery.commands.compare_folders import compare as compare_folders
+from drapery.commands.compare_folders import REPORTS, compare as compare_folders, folders_of
 from drapery.commands.notices import compile_notice
 from drapery.comparison import LIMIT_OPTIONS
 from drapery.errors import counted

@@ -13,96 +13,45 @@ A `Garment` has pieces of cloth, seams, pins and a wearer; `Garment.load` reads 
 
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
-    from drapery.garments.assembly import SewnCloth, SewnPiece, tailor
-    from drapery.garments.catalogue import find_garment, garment_names
+    from drapery.garments.assembly import (
+        SewnCloth as SewnCloth,
+        SewnPiece as SewnPiece,
+        tailor as tailor,
+    )
+    from drapery.garments.catalogue import (
+        find_garment as find_garment,
+        garment_names as garment_names,
+    )
     from drapery.garments.model import (
-        ClothTexture,
-        DiscPiece,
-        Garment,
-        GarmentBlock,
-        GarmentMesh,
-        GarmentPin,
-        GarmentPole,
-        GarmentSeam,
-        GarmentWearer,
-        GridPiece,
-        PolygonPiece,
-        RingPiece,
-        StripPiece,
+        ClothTexture as ClothTexture,
+        DiscPiece as DiscPiece,
+        Garment as Garment,
+        GarmentBlock as GarmentBlock,
+        GarmentMesh as GarmentMesh,
+        GarmentPin as GarmentPin,
+        GarmentPole as GarmentPole,
+        GarmentSeam as GarmentSeam,
+        GarmentWearer as GarmentWearer,
+        GridPiece as GridPiece,
+        PolygonPiece as PolygonPiece,
+        RingPiece as RingPiece,
+        StripPiece as StripPiece,
     )
-    from drapery.garments.motions import motion_names
+    from drapery.garments.motions import motion_names as motion_names
     from drapery.garments.players import (
-        check_skin,
-        dressed_player,
-        make_wearer,
-        player_of,
-        skin_names,
+        check_skin as check_skin,
+        dressed_player as dressed_player,
+        make_wearer as make_wearer,
+        player_of as player_of,
+        skin_names as skin_names,
     )
-    from drapery.garments.profiles import is_profile_file, is_profile_text
-    from drapery.player_settings import PlayerSettings
-
-__all__ = [
-    "ClothTexture",
-    "DiscPiece",
-    "Garment",
-    "GarmentBlock",
-    "GarmentMesh",
-    "GarmentPin",
-    "GarmentPole",
-    "GarmentSeam",
-    "GarmentWearer",
-    "GridPiece",
-    "PlayerSettings",
-    "PolygonPiece",
-    "RingPiece",
-    "SewnCloth",
-    "SewnPiece",
-    "StripPiece",
-    "check_skin",
-    "dressed_player",
-    "find_garment",
-    "garment_names",
-    "is_profile_file",
-    "is_profile_text",
-    "make_wearer",
-    "motion_names",
-    "player_of",
-    "skin_names",
-    "tailor",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "garments.catalogue": ("find_garment", "garment_names"),
-        "garments.model": (
-            "ClothTexture",
-            "DiscPiece",
-            "Garment",
-            "GarmentBlock",
-            "GarmentMesh",
-            "GarmentPin",
-            "GarmentPole",
-            "GarmentSeam",
-            "GarmentWearer",
-            "GridPiece",
-            "PolygonPiece",
-            "RingPiece",
-            "StripPiece",
-        ),
-        "garments.motions": ("motion_names",),
-        "garments.players": (
-            "check_skin",
-            "dressed_player",
-            "make_wearer",
-            "player_of",
-            "skin_names",
-        ),
-        "garments.profiles": ("is_profile_file", "is_profile_text"),
-        "player_settings": ("PlayerSettings",),
-        "garments.assembly": ("SewnCloth", "SewnPiece", "tailor"),
-    },
-)
+    from drapery.garments.profiles import (
+        is_profile_file as is_profile_file,
+        is_profile_text as is_profile_text,
+    )
+    from drapery.player_settings import PlayerSettings as PlayerSettings
+else:
+    import_lazily(__name__)

@@ -12,68 +12,34 @@ banners. Names are loaded when they are first used.
 
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
-    from drapery.match.mural import Mural, check_mural_size, shared_materials
-    from drapery.match.perspective import find_corners, flat_face
-    from drapery.match.photo import match_photo
-    from drapery.match.picture import (
-        FITS,
-        PICTURE_FORMATS,
-        WEIGHTINGS,
-        PictureFace,
-        decode_picture,
-        fit_mural,
-        fit_picture,
-        nearest_dye,
-        read_picture,
+    from drapery.match.mural import (
+        Mural as Mural,
+        check_mural_size as check_mural_size,
+        shared_materials as shared_materials,
     )
-    from drapery.match.search import EFFORT, Match, Matcher, MatchProgress, match
-    from drapery.match.sheet import matches_sheet
-
-__all__ = [
-    "EFFORT",
-    "FITS",
-    "PICTURE_FORMATS",
-    "WEIGHTINGS",
-    "Match",
-    "MatchProgress",
-    "Matcher",
-    "Mural",
-    "PictureFace",
-    "check_mural_size",
-    "decode_picture",
-    "find_corners",
-    "fit_mural",
-    "fit_picture",
-    "flat_face",
-    "match",
-    "match_photo",
-    "matches_sheet",
-    "nearest_dye",
-    "read_picture",
-    "shared_materials",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "match.mural": ("Mural", "check_mural_size", "shared_materials"),
-        "match.perspective": ("find_corners", "flat_face"),
-        "match.photo": ("match_photo",),
-        "match.picture": (
-            "PICTURE_FORMATS",
-            "FITS",
-            "WEIGHTINGS",
-            "PictureFace",
-            "decode_picture",
-            "fit_mural",
-            "fit_picture",
-            "nearest_dye",
-            "read_picture",
-        ),
-        "match.search": ("EFFORT", "Match", "MatchProgress", "Matcher", "match"),
-        "match.sheet": ("matches_sheet",),
-    },
-)
+    from drapery.match.perspective import find_corners as find_corners, flat_face as flat_face
+    from drapery.match.photo import match_photo as match_photo
+    from drapery.match.picture import (
+        FITS as FITS,
+        PICTURE_FORMATS as PICTURE_FORMATS,
+        WEIGHTINGS as WEIGHTINGS,
+        PictureFace as PictureFace,
+        decode_picture as decode_picture,
+        fit_mural as fit_mural,
+        fit_picture as fit_picture,
+        nearest_dye as nearest_dye,
+        read_picture as read_picture,
+    )
+    from drapery.match.search import (
+        EFFORT as EFFORT,
+        Match as Match,
+        Matcher as Matcher,
+        MatchProgress as MatchProgress,
+        match as match,
+    )
+    from drapery.match.sheet import matches_sheet as matches_sheet
+else:
+    import_lazily(__name__)

@@ -16,124 +16,55 @@ Lengths are metres, times seconds, angles degrees. Names are loaded when they ar
 
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
     from drapery.scenes.bodies import (
-        STEP,
-        WIND_AXIS,
-        ClothSpec,
-        LiveBody,
-        StagedBody,
-        cloth_at_rest,
-        cloth_spec,
-        flow,
-        wind_of,
+        STEP as STEP,
+        WIND_AXIS as WIND_AXIS,
+        ClothSpec as ClothSpec,
+        LiveBody as LiveBody,
+        StagedBody as StagedBody,
+        cloth_at_rest as cloth_at_rest,
+        cloth_spec as cloth_spec,
+        flow as flow,
+        wind_of as wind_of,
     )
-    from drapery.scenes.catalogue import Clip, SceneEntry, find_scene, scene_names
-    from drapery.scenes.drawing import scene_frames
-    from drapery.scenes.dressing import Dressed
-    from drapery.scenes.exploded import exploded_view
+    from drapery.scenes.catalogue import (
+        Clip as Clip,
+        SceneEntry as SceneEntry,
+        find_scene as find_scene,
+        scene_names as scene_names,
+    )
+    from drapery.scenes.drawing import scene_frames as scene_frames
+    from drapery.scenes.dressing import Dressed as Dressed
+    from drapery.scenes.exploded import exploded_view as exploded_view
     from drapery.scenes.garment_playing import (
-        first_scene,
-        played_garment,
-        repeating_garment,
-        texture_areas,
+        first_scene as first_scene,
+        played_garment as played_garment,
+        repeating_garment as repeating_garment,
+        texture_areas as texture_areas,
     )
-    from drapery.scenes.parameters import SceneParameters
-    from drapery.scenes.picture_grid import Picture, PictureGrid
+    from drapery.scenes.parameters import SceneParameters as SceneParameters
+    from drapery.scenes.picture_grid import Picture as Picture, PictureGrid as PictureGrid
     from drapery.scenes.playing import (
-        LiveKernel,
-        LivePanel,
-        PlayedCloth,
-        PlayedSubject,
-        live_panels,
-        live_picture,
-        played_body,
+        LiveKernel as LiveKernel,
+        LivePanel as LivePanel,
+        PlayedCloth as PlayedCloth,
+        PlayedSubject as PlayedSubject,
+        live_panels as live_panels,
+        live_picture as live_picture,
+        played_body as played_body,
     )
-    from drapery.scenes.recording import Schedule
-    from drapery.scenes.staging import Staging, floor_under
-    from drapery.scenes.subjects import StagedSubject, loop, moments, stage, still, subject_of
-
-__all__ = [
-    "STEP",
-    "WIND_AXIS",
-    "Clip",
-    "ClothSpec",
-    "Dressed",
-    "LiveBody",
-    "LiveKernel",
-    "LivePanel",
-    "Picture",
-    "PictureGrid",
-    "PlayedCloth",
-    "PlayedSubject",
-    "SceneEntry",
-    "SceneParameters",
-    "Schedule",
-    "StagedBody",
-    "StagedSubject",
-    "Staging",
-    "cloth_at_rest",
-    "cloth_spec",
-    "exploded_view",
-    "find_scene",
-    "first_scene",
-    "floor_under",
-    "flow",
-    "live_panels",
-    "live_picture",
-    "loop",
-    "moments",
-    "played_body",
-    "played_garment",
-    "repeating_garment",
-    "scene_frames",
-    "scene_names",
-    "stage",
-    "still",
-    "subject_of",
-    "texture_areas",
-    "wind_of",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "scenes.catalogue": ("Clip", "SceneEntry", "find_scene", "scene_names"),
-        "scenes.drawing": ("scene_frames",),
-        "scenes.dressing": ("Dressed",),
-        "scenes.exploded": ("exploded_view",),
-        "scenes.garment_playing": (
-            "first_scene",
-            "played_garment",
-            "repeating_garment",
-            "texture_areas",
-        ),
-        "scenes.parameters": ("SceneParameters",),
-        "scenes.picture_grid": ("Picture", "PictureGrid"),
-        "scenes.playing": (
-            "LiveKernel",
-            "LivePanel",
-            "PlayedCloth",
-            "PlayedSubject",
-            "live_panels",
-            "live_picture",
-            "played_body",
-        ),
-        "scenes.recording": ("Schedule",),
-        "scenes.subjects": ("StagedSubject", "loop", "moments", "stage", "still", "subject_of"),
-        "scenes.bodies": (
-            "STEP",
-            "WIND_AXIS",
-            "ClothSpec",
-            "LiveBody",
-            "StagedBody",
-            "cloth_at_rest",
-            "cloth_spec",
-            "flow",
-            "wind_of",
-        ),
-        "scenes.staging": ("Staging", "floor_under"),
-    },
-)
+    from drapery.scenes.recording import Schedule as Schedule
+    from drapery.scenes.staging import Staging as Staging, floor_under as floor_under
+    from drapery.scenes.subjects import (
+        StagedSubject as StagedSubject,
+        loop as loop,
+        moments as moments,
+        stage as stage,
+        still as still,
+        subject_of as subject_of,
+    )
+else:
+    import_lazily(__name__)

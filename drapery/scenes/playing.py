@@ -14,8 +14,12 @@ from numpy.typing import NDArray
 from drapery.banner.design import MAX_LAYERS
 from drapery.cloth import Force, MovingCloth, Wind, strain
 from drapery.cloth.contact import lanes_contact
-from drapery.cloth.live import STILL, LiveMotion, live_call
-from drapery.cloth.live import play as play_cloth  # what is called `play` here is a scene
+from drapery.cloth.live import (
+    STILL,
+    LiveMotion,
+    live_call,
+    play as play_cloth,  # what is called `play` here is a scene
+)
 from drapery.cloth.live_wind import aim
 from drapery.errors import OptionError
 from drapery.mesh import Array

@@ -6,47 +6,22 @@ loaded when they are first used.
 
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
     from drapery.sheets.drawn import (
-        garments_sheet,
-        packs_sheet,
-        players_sheet,
-        rotations_sheet,
-        styles_sheet,
+        garments_sheet as garments_sheet,
+        packs_sheet as packs_sheet,
+        players_sheet as players_sheet,
+        rotations_sheet as rotations_sheet,
+        styles_sheet as styles_sheet,
     )
-    from drapery.sheets.faces import contents_sheet, patterns_sheet, steps_sheet
-    from drapery.sheets.letters import cloth_row, faces_row
-    from drapery.sheets.sheet import PictureSheet, SheetCell
-
-__all__ = [
-    "PictureSheet",
-    "SheetCell",
-    "cloth_row",
-    "contents_sheet",
-    "faces_row",
-    "garments_sheet",
-    "packs_sheet",
-    "patterns_sheet",
-    "players_sheet",
-    "rotations_sheet",
-    "steps_sheet",
-    "styles_sheet",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "sheets.drawn": (
-            "garments_sheet",
-            "packs_sheet",
-            "players_sheet",
-            "rotations_sheet",
-            "styles_sheet",
-        ),
-        "sheets.faces": ("contents_sheet", "patterns_sheet", "steps_sheet"),
-        "sheets.letters": ("cloth_row", "faces_row"),
-        "sheets.sheet": ("PictureSheet", "SheetCell"),
-    },
-)
+    from drapery.sheets.faces import (
+        contents_sheet as contents_sheet,
+        patterns_sheet as patterns_sheet,
+        steps_sheet as steps_sheet,
+    )
+    from drapery.sheets.letters import cloth_row as cloth_row, faces_row as faces_row
+    from drapery.sheets.sheet import PictureSheet as PictureSheet, SheetCell as SheetCell
+else:
+    import_lazily(__name__)

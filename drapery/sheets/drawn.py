@@ -13,8 +13,7 @@ from drapery.pictures import draw, draw_face, draw_scenes
 from drapery.render import Frame, frame_view
 from drapery.scenes.dressing import Dressed
 from drapery.scenes.recording import Schedule
-from drapery.scenes.subjects import moments as staged_moments
-from drapery.scenes.subjects import still
+from drapery.scenes.subjects import moments as staged_moments, still
 from drapery.settings import OPTIONS, ROTATIONS, Settings
 from drapery.sheets.sheet import PictureSheet, SheetCell
 from drapery.style.figure import SKINS

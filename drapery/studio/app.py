@@ -8,8 +8,7 @@ from urllib.parse import urlencode
 
 import uvicorn
 from fastapi import FastAPI
-from nicegui import app as nicegui_app
-from nicegui import core, ui
+from nicegui import app as nicegui_app, core, ui
 
 from drapery import OutputError
 from drapery.studio import page, routes, stream

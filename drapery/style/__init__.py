@@ -19,52 +19,35 @@ Names are imported when they are first used.
 
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
-    from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, turn
-    from drapery.style.body import Body, MaterialAt, Panel, Part
-    from drapery.style.crowds import cover_crowd
-    from drapery.style.extrusion import Shell, boundary_edges, extrude, make_shell
-    from drapery.style.kinds import Kind, body_of, check_kind
-    from drapery.style.layers import flag_material
-    from drapery.style.skins import skin_tables
-    from drapery.style.uv_mapping import BoxMapping, SheetMapping, UVMapping, box_mapping
-
-__all__ = [
-    "FLAG_MAPPING",
-    "FLAG_SIZE",
-    "Body",
-    "BoxMapping",
-    "Kind",
-    "MaterialAt",
-    "Panel",
-    "Part",
-    "SheetMapping",
-    "Shell",
-    "UVMapping",
-    "body_of",
-    "boundary_edges",
-    "box_mapping",
-    "check_kind",
-    "cover_crowd",
-    "extrude",
-    "flag_material",
-    "make_shell",
-    "skin_tables",
-    "turn",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "style.block": ("FLAG_MAPPING", "FLAG_SIZE", "turn"),
-        "style.body": ("Body", "MaterialAt", "Panel", "Part"),
-        "style.crowds": ("cover_crowd",),
-        "style.extrusion": ("Shell", "boundary_edges", "extrude", "make_shell"),
-        "style.kinds": ("Kind", "body_of", "check_kind"),
-        "style.layers": ("flag_material",),
-        "style.skins": ("skin_tables",),
-        "style.uv_mapping": ("BoxMapping", "SheetMapping", "UVMapping", "box_mapping"),
-    },
-)
+    from drapery.style.block import (
+        FLAG_MAPPING as FLAG_MAPPING,
+        FLAG_SIZE as FLAG_SIZE,
+        turn as turn,
+    )
+    from drapery.style.body import (
+        Body as Body,
+        MaterialAt as MaterialAt,
+        Panel as Panel,
+        Part as Part,
+    )
+    from drapery.style.crowds import cover_crowd as cover_crowd
+    from drapery.style.extrusion import (
+        Shell as Shell,
+        boundary_edges as boundary_edges,
+        extrude as extrude,
+        make_shell as make_shell,
+    )
+    from drapery.style.kinds import Kind as Kind, body_of as body_of, check_kind as check_kind
+    from drapery.style.layers import flag_material as flag_material
+    from drapery.style.skins import skin_tables as skin_tables
+    from drapery.style.uv_mapping import (
+        BoxMapping as BoxMapping,
+        SheetMapping as SheetMapping,
+        UVMapping as UVMapping,
+        box_mapping as box_mapping,
+    )
+else:
+    import_lazily(__name__)

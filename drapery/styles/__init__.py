@@ -23,40 +23,23 @@ used.
 
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
-    from drapery.settings import StyleLike
-    from drapery.style.sheet import Sheet
-    from drapery.styles.canvas import Canvas
-    from drapery.styles.catalogue import combined_style, find_style, style_names
-    from drapery.styles.step import StepKind, StyleStep, over_time
-    from drapery.styles.steps import STEPS
-    from drapery.styles.style import Style
-
-__all__ = [
-    "STEPS",
-    "Canvas",
-    "Sheet",
-    "StepKind",
-    "Style",
-    "StyleLike",
-    "StyleStep",
-    "combined_style",
-    "find_style",
-    "over_time",
-    "style_names",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "settings": ("StyleLike",),
-        "styles.canvas": ("Canvas",),
-        "styles.catalogue": ("combined_style", "find_style", "style_names"),
-        "style.sheet": ("Sheet",),
-        "styles.step": ("StepKind", "StyleStep", "over_time"),
-        "styles.steps": ("STEPS",),
-        "styles.style": ("Style",),
-    },
-)
+    from drapery.settings import StyleLike as StyleLike
+    from drapery.style.sheet import Sheet as Sheet
+    from drapery.styles.canvas import Canvas as Canvas
+    from drapery.styles.catalogue import (
+        combined_style as combined_style,
+        find_style as find_style,
+        style_names as style_names,
+    )
+    from drapery.styles.step import (
+        StepKind as StepKind,
+        StyleStep as StyleStep,
+        over_time as over_time,
+    )
+    from drapery.styles.steps import STEPS as STEPS
+    from drapery.styles.style import Style as Style
+else:
+    import_lazily(__name__)

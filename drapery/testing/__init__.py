@@ -8,84 +8,39 @@ are loaded when they are first used.
 
 from typing import TYPE_CHECKING
 
-from drapery.lazy import lazy_names
+from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
-    from drapery.comparison import Tolerance
-    from drapery.testing.case_check import CaseResult, check_cases, unused_goldens, update_cases
-    from drapery.testing.cases import Case, CaseFile, read_cases
-    from drapery.testing.explain import LayerNote, explain_change, layer_notes
+    from drapery.comparison.tolerance import Tolerance as Tolerance
+    from drapery.testing.case_check import (
+        CaseResult as CaseResult,
+        check_cases as check_cases,
+        unused_goldens as unused_goldens,
+        update_cases as update_cases,
+    )
+    from drapery.testing.cases import Case as Case, CaseFile as CaseFile, read_cases as read_cases
+    from drapery.testing.explain import (
+        LayerNote as LayerNote,
+        explain_change as explain_change,
+        layer_notes as layer_notes,
+    )
     from drapery.testing.failures import (
-        GoldenUpdate,
-        accept_failures,
-        clear_report,
-        keep_failure,
-        markdown_report,
-        write_report,
+        GoldenUpdate as GoldenUpdate,
+        accept_failures as accept_failures,
+        clear_report as clear_report,
+        keep_failure as keep_failure,
+        markdown_report as markdown_report,
+        write_report as write_report,
     )
-    from drapery.testing.garment_check import check_garment
+    from drapery.testing.garment_check import check_garment as check_garment
     from drapery.testing.golden import (
-        GoldenError,
-        agrees,
-        decode,
-        encode,
-        fingerprint,
+        GoldenError as GoldenError,
+        agrees as agrees,
+        decode as decode,
+        encode as encode,
+        fingerprint as fingerprint,
     )
-    from drapery.testing.plugin import Golden
-    from drapery.testing.style_check import check_style
-
-__all__ = [
-    "Case",
-    "CaseFile",
-    "CaseResult",
-    "Golden",
-    "GoldenError",
-    "GoldenUpdate",
-    "LayerNote",
-    "Tolerance",
-    "accept_failures",
-    "agrees",
-    "check_cases",
-    "check_garment",
-    "check_style",
-    "clear_report",
-    "decode",
-    "encode",
-    "explain_change",
-    "fingerprint",
-    "keep_failure",
-    "layer_notes",
-    "markdown_report",
-    "read_cases",
-    "unused_goldens",
-    "update_cases",
-    "write_report",
-]
-
-__getattr__, __dir__ = lazy_names(
-    __name__,
-    {
-        "comparison.tolerance": ("Tolerance",),
-        "testing.case_check": ("CaseResult", "check_cases", "unused_goldens", "update_cases"),
-        "testing.cases": ("Case", "CaseFile", "read_cases"),
-        "testing.explain": ("LayerNote", "explain_change", "layer_notes"),
-        "testing.failures": (
-            "GoldenUpdate",
-            "accept_failures",
-            "clear_report",
-            "keep_failure",
-            "markdown_report",
-            "write_report",
-        ),
-        "testing.garment_check": ("check_garment",),
-        "testing.golden": (
-            "GoldenError",
-            "agrees",
-            "decode",
-            "encode",
-            "fingerprint",
-        ),
-        "testing.plugin": ("Golden",),
-        "testing.style_check": ("check_style",),
-    },
-)
+    from drapery.testing.plugin import Golden as Golden
+    from drapery.testing.style_check import check_style as check_style
+else:
+    import_lazily(__name__)
