@@ -48,8 +48,8 @@ def test_lines_on_parameters_become_a_list() -> None:
     assert with_lists(text, {"a", "b", "c", "d"}) == f"{made}\nRaises X."
 
 
-def test_the_architecture_page_names_every_package() -> None:
-    text = (ROOT / "docs/explanation/architecture.md").read_text("utf-8")
+def test_the_page_of_packages_names_every_one() -> None:
+    text = (ROOT / "docs/explanation/packages.md").read_text("utf-8")
     packages = {path.parent for path in (ROOT / "drapery").glob("*/__init__.py")}
     for package in packages:
         assert f"`{package.relative_to(ROOT).as_posix()}/`" in text
