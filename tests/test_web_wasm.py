@@ -84,8 +84,9 @@ def test_contact_of_the_cloth_with_itself_has_the_bits_of_python() -> None:
     assert sizes[1] < sizes[0] + (1 << 20), "what a step allocates is free after it"
 
 
-def test_a_picture_has_the_pixels_of_python() -> None:
-    settings = quick_settings(view="iso", light="game", size=(48, 64), samples=4, time=1.99)
+@pytest.mark.parametrize("size", [(48, 64), (480, 640)], ids=["small", "with-curves"])
+def test_a_picture_has_the_pixels_of_python(size: tuple[int, int]) -> None:
+    settings = quick_settings(view="iso", light="game", size=size, samples=4, time=1.99)
     design = Banner.parse("white creeper:lime border:black")
     body = body_of(design, open_packs(()), settings)
     built_module()
@@ -94,8 +95,8 @@ def test_a_picture_has_the_pixels_of_python() -> None:
     player.step(player.header["steps"])
     player.run("cover")
     player.run("draw")
-    assert player.header["picture"] == [48, 64]
-    pixels = player.read("picture").view(np.uint8).reshape(64, 48, 4)
+    assert player.header["picture"] == [*size]
+    pixels = player.read("picture").view(np.uint8).reshape(size[1], size[0], 4)
     assert np.array_equal(pixels, draw_scene(still(design, open_packs(()), settings)).pixels)
 
 

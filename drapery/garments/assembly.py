@@ -1,7 +1,7 @@
 """From a garment to cloth that moves: pieces are cut, sewn and pinned."""
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
@@ -20,6 +20,7 @@ from drapery.garments.textures import texture_of
 from drapery.mesh import Array, vertex_normals
 from drapery.render.scene import Material
 from drapery.style.extrusion import Shell, make_shell
+from drapery.style.refinement import cover_curves
 from drapery.style.sheet import Sheet
 from drapery.style.tailoring import ClothModel
 from drapery.style.visible import is_invisible
@@ -87,16 +88,27 @@ class SewnCloth:
 
         return PinTable(at)
 
-    def models(self, positions: Array) -> list[ClothModel]:
-        """Its pieces, thick. positions: of the particles [m], shape [N, 3]."""
+    def models(
+        self, positions: Array, finer: Callable[["SewnPiece"], Shell | None] = lambda piece: None
+    ) -> list[ClothModel]:
+        """Its pieces, thick.
+
+        positions: of the particles [m], shape [N, 3].
+        finer: the shell around curves through a piece, which is drawn for its own; None where its
+            own is drawn.
+        """
         normals = vertex_normals(positions, self.cloth.triangles)
         found = []
         for piece in self.pieces:
-            sheet = positions[piece.particles]
-            thick = piece.shell.cover(sheet, normals[piece.particles], self.thickness)
-            thin = None
-            if piece.shell.grid is not None and len(self.pieces) == 1:
-                thin = Sheet(sheet, piece.shell, self.thickness, self.texel, piece.size)
+            sheet, shell, along = positions[piece.particles], piece.shell, normals[piece.particles]
+            drawn, thin = finer(piece), None
+            if drawn is None or shell.grid is None:
+                thick = shell.cover(sheet, along, self.thickness)
+            else:
+                thick = cover_curves(drawn, shell.grid, sheet, along, self.thickness)
+            if shell.grid is not None and len(self.pieces) == 1:
+                size = piece.size
+                thin = Sheet(sheet, shell, self.thickness, self.texel, size, finer=drawn)
             found.append(ClothModel(thick, (piece.material,), None, thin, name=piece.name))
         return found
 

@@ -39,8 +39,9 @@ from drapery.scenes.staging import Staging
 from drapery.settings import Settings
 from drapery.style.body import Body, Panel, Solid
 from drapery.style.extrusion import Shell, thicken
+from drapery.style.refinement import cells_per_cell, finer_shape
 from drapery.style.sheet import Sheet
-from drapery.styles.grids import grid_shell
+from drapery.styles.grids import finer_shell, grid_shell
 
 STEP = 1.0 / 60.0
 """The longest time step of a picture, and the time step of live cloth [s]."""
@@ -160,6 +161,7 @@ class StagedBody:
     """A body in its staging, and how it is drawn where its cloth is.
 
     cover: makes the thick cloth of a shell, a sheet [m], [N, 3], and a thickness [m].
+    times: cells that are drawn along each cell of the simulated grid.
     Raises OptionError.
     """
 
@@ -175,6 +177,10 @@ class StagedBody:
         self.body = body
         self.staging = Staging(settings, body.ground, body.light, body.camera)
         self.parts = [self.staging.turned(part.mesh) for part in body.parts]
+        settings, (columns, rows) = self.staging.settings, self.staging.settings.grid
+        # A shape step gets the simulated grid, and makes the finer one that it needs.
+        curved = settings.pose == "cloth" and not self.staging.style.has("shape")
+        self.times = cells_per_cell(settings.drawn_size, (rows, columns)) if curved else 1
         self._cover = cover
 
     def soft(self, sheets: Sequence[Array]) -> list[Mesh]:
@@ -249,7 +255,22 @@ class StagedBody:
             times = texture_times(self.body.period, len(at.times), at.fps)
         moves = any(is_cloth or panel.sway for panel in self.body.panels)
         models = map(self.models, moments, times)
-        return self.staging.scenes(moments, models, around=len(moments) > 1 and not moves)
+        framed = [points for meshes in moments for points in self._framed(meshes)]
+        return self.staging.scenes(moments, models, framed, around=len(moments) > 1 and not moves)
+
+    def _framed(self, meshes: Sequence[Mesh]) -> list[Array]:
+        """The vertices that a camera frames: of finer cloth those at its particles, so that
+        pictures of all sizes show the same. None where it frames all."""
+        if self.times == 1:
+            return []
+        columns, rows = self.staging.settings.grid
+        fine = *finer_shape((rows, columns), self.times), 3
+        sheet = fine[0] * fine[1]
+        found = [mesh.positions for mesh in meshes[: len(self.parts)]]
+        for mesh in meshes[len(self.parts) :]:
+            for side in (mesh.positions[:sheet], mesh.positions[sheet : 2 * sheet]):
+                found.append(side.reshape(fine)[:: self.times, :: self.times])
+        return found
 
     def _phases(self, at: Schedule) -> list[list[float]]:
         """The phase of each panel's own sway in each picture."""
@@ -264,11 +285,12 @@ class StagedBody:
         columns, rows = self.staging.settings.grid
         thickness = self.staging.settings.thickness * panel.texel
         shell = grid_shell(rows, columns, panel.uv_mapping)
-        return Sheet(positions, shell, thickness, panel.texel, panel.size)
+        finer = finer_shell(shell, self.times)
+        return Sheet(positions, shell, thickness, panel.texel, panel.size, finer=finer)
 
     def _thick(self, panel: Panel, sheet: Array) -> Mesh:
         thin = self._sheet(panel, sheet + panel.origin)
-        if self.staging.style.has("shape"):
+        if self.times > 1 or self.staging.style.has("shape"):
             return self.staging.turned(self.staging.style.mesh(thin))
         return self.staging.turned(self._cover(thin.shell, thin.positions, thin.thickness))
 
@@ -289,6 +311,7 @@ class LiveBody(StagedBody):
         cover: Callable[[Shell, Array, float], Mesh] = thicken,
     ) -> None:
         super().__init__(body, settings, cover)
+        self.times = 1  # it is shown at the display's rate
         settings = self.staging.settings
         self.wind = wind_of(settings)
         self.steps = 0

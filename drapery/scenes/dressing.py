@@ -6,7 +6,7 @@ that walks at the speed of its walk, so its cloth moves as on one that walks thr
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
 
 import numpy as np
@@ -22,7 +22,7 @@ from drapery.cloth import (
     Wind,
 )
 from drapery.cloth.solvers.registry import solver
-from drapery.garments.assembly import SewnCloth, tailor
+from drapery.garments.assembly import SewnCloth, SewnPiece, tailor
 from drapery.garments.layering import put_behind, put_outside, sampled
 from drapery.garments.meshes import StiffMesh, read_stiff_mesh
 from drapery.garments.model import Garment, GarmentPole
@@ -41,9 +41,12 @@ from drapery.style.block import turn_matrix
 from drapery.style.block_world import Cell, blocks
 from drapery.style.board import moved
 from drapery.style.body import Part
+from drapery.style.extrusion import Shell
 from drapery.style.ground import ground_of
+from drapery.style.refinement import cells_per_cell
 from drapery.style.rig import moved_rig
 from drapery.style.scenery import pole, pole_frame
+from drapery.styles.grids import finer_shell
 
 WORN_STEP = STEP / 2
 """The longest time step of cloth on a wearer, whose legs move fast [s]."""
@@ -55,6 +58,8 @@ BUST = ("head", "body", "right_arm", "left_arm")
 """The bones of a bust, which end at the waist."""
 BEHIND_ROUNDS = 2
 """Garments are put outside each other and behind a shield so often in turn."""
+PLAYER_HEIGHT = 1.8
+"""Of a wearer that the picture shows from head to foot [m]."""
 EDGE = 0.2
 """A garment may hang over the edge of its ground by this length [m]."""
 ROUNDING = 1e-9
@@ -236,17 +241,27 @@ class Dressed:
         self, staging: Staging, sheets: Sequence[Array], times: Sequence[float]
     ) -> Iterator[list[Model]]:
         """All models of each moment in the garment's own frame, the cloth in the style."""
+        finer = partial(self._finer, staging)
         cloth: list[list[Model]] = [
             [
                 model
                 for sewn, sheet in zip(self.cloths, sheets, strict=True)
-                for model in sewn.models(sheet[frame])
+                for model in sewn.models(sheet[frame], finer)
             ]
             for frame in range(len(times))
         ]
         for time, worn in zip(times, moved_by_style(cloth, staging.style), strict=True):
             figure = self.wearer.models(time, self._bones) if self.wearer else ()
             yield [*self.fixed, *figure, *(tailored(each, staging.style) for each in worn)]
+
+    def _finer(self, staging: Staging, piece: SewnPiece) -> Shell | None:
+        """The shell of curves that a large picture shows of a piece; none before shape steps."""
+        if staging.style.has("shape") or piece.shell.grid is None:
+            return None
+        who, height = self.garment.wearer, piece.size[1]
+        share = min(1.0, height / PLAYER_HEIGHT) if who and who.shown == "full" else 1.0
+        times = cells_per_cell(self.settings.drawn_size, piece.shell.grid, share)
+        return finer_shell(piece.shell, times)
 
     def figures(self) -> list[RiggedModel]:
         """The models of the wearer at the start, which come directly before those of the cloths."""

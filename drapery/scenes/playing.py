@@ -41,7 +41,7 @@ from drapery.style.body import Body, Panel
 from drapery.style.extrusion import Shell
 from drapery.style.live_figure import LiveFigure, pose_figure
 from drapery.style.live_shell import LiveShell, cover, make_live_shell
-from drapery.styles.grids import grid_shell
+from drapery.styles.grids import finer_shell, grid_shell
 
 SPARE = MAX_LAYERS + 2
 """Layers of a design: the bare cloth, its base and its patterns."""
@@ -84,6 +84,7 @@ class PlayedCloth:
     moving: the cloth. forces: on it, with one wind.
     wind: the free wind, which a host may turn. lee, motion: see `live_call`.
     shell: the surface around its particles. thickness: of the cloth [m].
+    finer: that around curves through them; None for the one around them.
     place: of its own frame in the picture [m], shape [3].
     header: what hosts also want to know, for JSON.
     """
@@ -94,6 +95,7 @@ class PlayedCloth:
     shell: Shell
     thickness: float
     place: Array
+    finer: Shell | None = None
     lee: tuple[float, float, float] = (1.0, 1.0, 1.0)
     motion: LiveMotion = STILL
     header: Mapping[str, Any] = field(default_factory=dict)
@@ -155,7 +157,9 @@ def live_picture(body: Body, settings: Settings, lanes: int | None = None) -> Li
             "Python; leave out the picture"
         )
     at = Schedule.still(staging.settings.time, STEP)
-    panel = _live_panel(_played_cloth(staged, body.panels[0], at.dt), staging, lanes)
+    cloth = _played_cloth(staged, body.panels[0], at.dt)
+    finer = finer_shell(cloth.shell, staged.times)
+    panel = _live_panel(replace(cloth, finer=finer), staging, lanes)
     scene = next(staged.scenes(staged.record(at), at))
     live = make_live_picture(scene, len(scene.models) - 1, SPARE)
     vertices, normals = panel.arrays["vertices"], panel.arrays["normals"]
@@ -198,7 +202,7 @@ def _played_cloth(staged: StagedBody, panel: Panel, step: float = STEP) -> Playe
         grid_shell(rows, columns, panel.uv_mapping),
         settings.thickness * panel.texel,
         panel.origin,
-        (1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0),
+        lee=(1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0),
         header={"columns": columns, "rows": rows, "size": list(map(float, panel.size))},
     )
 
@@ -207,7 +211,9 @@ def _live_panel(cloth: PlayedCloth, staging: Staging, lanes: int | None) -> Live
     call = live_call(cloth.moving, cloth.forces, cloth.wind, cloth.lee, lanes, cloth.motion)
     live, blown, plan, batch, substeps = call
     turning = turning_of(staging.settings)
-    shell = make_live_shell(cloth.shell, cloth.place, cloth.thickness, staging.light, *turning)
+    shell = make_live_shell(
+        cloth.shell, cloth.place, cloth.thickness, staging.light, *turning, cloth.finer
+    )
     x, _, z = blown.velocity
     method = type(plan).__name__.removesuffix("Plan").lower()
     return LivePanel(

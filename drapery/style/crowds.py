@@ -77,55 +77,74 @@ def cover_sheets(
 
     least: see `least_lengths`. All are of one floating-point type.
     """
-    count, F = sheets.shape[1], sheets.dtype.type
     across = np.empty((len(triangles), 3), sheets.dtype)
     flat, tiny = least
     for b in range(first, last):
-        for t in range(len(triangles)):
-            i, j, k = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-            x, y, z = sheets[b, i, 0], sheets[b, i, 1], sheets[b, i, 2]
-            across[t, 0], across[t, 1], across[t, 2] = _cross(
-                sheets[b, j, 0] - x,
-                sheets[b, j, 1] - y,
-                sheets[b, j, 2] - z,
-                sheets[b, k, 0] - x,
-                sheets[b, k, 1] - y,
-                sheets[b, k, 2] - z,
-            )
-        for v in range(count):
-            nx = ny = nz = F(0)
-            for at in range(starts[v], starts[v + 1]):
-                face = faces[at]
-                nx, ny, nz = nx + across[face, 0], ny + across[face, 1], nz + across[face, 2]
-            length = np.sqrt(nx * nx + ny * ny + nz * nz)
-            if length < flat:
-                nx, ny, nz = F(0), F(0), F(1)
-            else:
-                nx, ny, nz = nx / length, ny / length, nz / length
-            normals[b, v, 0], normals[b, v, 1], normals[b, v, 2] = nx, ny, nz
-            for axis in range(3):
-                n = normals[b, v, axis]
-                normals[b, count + v, axis] = -n
-                points[b, v, axis] = sheets[b, v, axis] + half * n
-                points[b, count + v, axis] = sheets[b, v, axis] - half * n
-        for e in range(len(rim)):
-            i, j = rim[e, 0], rim[e, 1]
-            ox, oy, oz = _cross(
-                sheets[b, j, 0] - sheets[b, i, 0],
-                sheets[b, j, 1] - sheets[b, i, 1],
-                sheets[b, j, 2] - sheets[b, i, 2],
-                normals[b, i, 0] + normals[b, j, 0],
-                normals[b, i, 1] + normals[b, j, 1],
-                normals[b, i, 2] + normals[b, j, 2],
-            )
-            length = max(np.sqrt(ox * ox + oy * oy + oz * oz), tiny)
-            ox, oy, oz = ox / length, oy / length, oz / length
-            corner = 2 * count + 4 * e
-            for c in range(4):
-                n = normals[b, corner + c]
-                n[0], n[1], n[2] = ox, oy, oz
-            for axis in range(3):
-                points[b, corner, axis] = points[b, i, axis]
-                points[b, corner + 1, axis] = points[b, j, axis]
-                points[b, corner + 2, axis] = points[b, count + i, axis]
-                points[b, corner + 3, axis] = points[b, count + j, axis]
+        average_normals(sheets[b], triangles, starts, faces, flat, across, normals[b])
+        cover_sheet(sheets[b], rim, half, tiny, points[b], normals[b])
+
+
+@kernel
+def average_normals(
+    sheet: Any, triangles: Any, starts: Any, faces: Any, flat: Any, across: Any, normals: Any
+) -> None:
+    """Write the unit normal at each particle of a sheet: the average of those of its faces.
+
+    across: scratch for the normals of the faces, shape [T, 3]; for the others see `cover_sheets`.
+    """
+    F = sheet.dtype.type
+    for t in range(len(triangles)):
+        i, j, k = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        x, y, z = sheet[i, 0], sheet[i, 1], sheet[i, 2]
+        across[t, 0], across[t, 1], across[t, 2] = _cross(
+            sheet[j, 0] - x,
+            sheet[j, 1] - y,
+            sheet[j, 2] - z,
+            sheet[k, 0] - x,
+            sheet[k, 1] - y,
+            sheet[k, 2] - z,
+        )
+    for v in range(sheet.shape[0]):
+        nx = ny = nz = F(0)
+        for at in range(starts[v], starts[v + 1]):
+            face = faces[at]
+            nx, ny, nz = nx + across[face, 0], ny + across[face, 1], nz + across[face, 2]
+        length = np.sqrt(nx * nx + ny * ny + nz * nz)
+        if length < flat:
+            nx, ny, nz = F(0), F(0), F(1)
+        else:
+            nx, ny, nz = nx / length, ny / length, nz / length
+        normals[v, 0], normals[v, 1], normals[v, 2] = nx, ny, nz
+
+
+@kernel
+def cover_sheet(sheet: Any, rim: Any, half: Any, tiny: Any, points: Any, normals: Any) -> None:
+    """Write the shell of a sheet. normals: those of the sheet are its first rows."""
+    count = sheet.shape[0]
+    for v in range(count):
+        for axis in range(3):
+            n = normals[v, axis]
+            normals[count + v, axis] = -n
+            points[v, axis] = sheet[v, axis] + half * n
+            points[count + v, axis] = sheet[v, axis] - half * n
+    for e in range(len(rim)):
+        i, j = rim[e, 0], rim[e, 1]
+        ox, oy, oz = _cross(
+            sheet[j, 0] - sheet[i, 0],
+            sheet[j, 1] - sheet[i, 1],
+            sheet[j, 2] - sheet[i, 2],
+            normals[i, 0] + normals[j, 0],
+            normals[i, 1] + normals[j, 1],
+            normals[i, 2] + normals[j, 2],
+        )
+        length = max(np.sqrt(ox * ox + oy * oy + oz * oz), tiny)
+        corner = 2 * count + 4 * e
+        for c in range(4):
+            normals[corner + c, 0] = ox / length
+            normals[corner + c, 1] = oy / length
+            normals[corner + c, 2] = oz / length
+        for axis in range(3):
+            points[corner, axis] = points[i, axis]
+            points[corner + 1, axis] = points[j, axis]
+            points[corner + 2, axis] = points[count + i, axis]
+            points[corner + 3, axis] = points[count + j, axis]

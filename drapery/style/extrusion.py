@@ -77,6 +77,10 @@ class Shell:
         starts = np.concatenate([[0], np.cumsum(np.bincount(corners, minlength=self.count))])
         return starts, order % max(1, len(self.sheet))
 
+    def normals(self, positions: Array) -> Array:
+        """The averaged normals of thin sheets [m], both of shape [..., N, 3]."""
+        return normals_around(positions, self.sheet, self._around)
+
     def cover(self, positions: Array, normals: Array, thickness: float) -> Mesh:
         """The shells around thin sheets: each vertex moves half the thickness along its normal.
 
@@ -125,8 +129,7 @@ def thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
 
     sheet: positions [m], shape [..., N, 3]. thickness: distance between the two sheets [m].
     """
-    normals = normals_around(sheet, shell.sheet, shell._around)
-    return shell.cover(sheet, normals, thickness)
+    return shell.cover(sheet, shell.normals(sheet), thickness)
 
 
 def extrude(mesh: Mesh, thickness: float, uv_mapping: UVMapping = SHEET_MAPPING) -> Mesh:

@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array, Triangles
 from drapery.render.light import Light
-from drapery.style.crowds import cover_sheets, least_lengths
+from drapery.style.crowds import average_normals, cover_sheet, least_lengths
 from drapery.style.extrusion import THINNEST, Shell
+from drapery.style.refinement import cover_finer
 
 __all__ = ["LiveShell", "cover", "make_live_shell", "show"]
 
@@ -21,7 +22,8 @@ class LiveShell(NamedTuple):
     [m]. flat, tiny: see `least_lengths`. place: of the panel [m], [3]. turn, middle: rotation of
     the body, [3, 3], and the point about which it turns [m], [3]. lights: unit vectors, [L, 3].
     levels: ambient and diffuse light, [2]. sheet, points, units: scratch for the sheet [1, N, 3]
-    and its shell [1, V, 3] before it is turned.
+    and its shell [1, V, 3] before it is turned. grid, finer: rows and columns of the sheet and of
+    the curves through it that the shell is around, [2]; equal where it is around the sheet.
     vertices: [m], [V, 3]. normals: [V, 3]. light: 0..1, [V].
     """
 
@@ -40,21 +42,33 @@ class LiveShell(NamedTuple):
     sheet: Array
     points: Array
     units: Array
+    grid: NDArray[np.int64]
+    finer: NDArray[np.int64]
     vertices: Array
     normals: Array
     light: Array
 
 
 def make_live_shell(
-    shell: Shell, place: Array, thickness: float, light: Light, turn: Array, middle: Array
+    shell: Shell,
+    place: Array,
+    thickness: float,
+    light: Light,
+    turn: Array,
+    middle: Array,
+    finer: Shell | None = None,
 ) -> LiveShell:
-    """The shell of a panel. thickness: [m]; for the others see `LiveShell`."""
-    count = len(shell.uvs)
+    """The shell of a panel. thickness: [m]; for the others see `LiveShell`.
+
+    finer: that of curves through its particles, see `cover_curves`; None for its own.
+    """
+    drawn = finer or shell
+    count = len(drawn.uvs)
     flat, tiny = least_lengths(np.float64)
     return LiveShell(
         np.ascontiguousarray(shell.sheet),
         *shell.runs_around,
-        np.ascontiguousarray(shell.rim),
+        np.ascontiguousarray(drawn.rim),
         max(thickness, THINNEST) / 2.0,
         float(flat),
         float(tiny),
@@ -66,6 +80,8 @@ def make_live_shell(
         np.zeros((1, shell.count, 3)),
         np.zeros((1, count, 3)),
         np.zeros((1, count, 3)),
+        np.array(shell.grid or (0, 0), np.int64),
+        np.array(drawn.grid or (0, 0), np.int64),
         np.zeros((count, 3), np.float32),
         np.zeros((count, 3), np.float32),
         np.zeros(count, np.float32),
@@ -78,19 +94,26 @@ def cover(positions: Any, shell: Any) -> Any:
     for i in range(positions.shape[0]):
         for axis in range(3):
             shell.sheet[0, i, axis] = positions[i, axis] + shell.place[axis]
-    cover_sheets(
-        0,
-        1,
-        shell.sheet,
-        shell.triangles,
-        shell.starts,
-        shell.faces,
-        shell.rim,
-        shell.half,
-        (shell.flat, shell.tiny),
-        shell.points,
-        shell.units,
-    )
+    sheet, points, units = shell.sheet[0], shell.points[0], shell.units[0]
+    across = np.empty((len(shell.triangles), 3))
+    around = shell.triangles, shell.starts, shell.faces
+    if shell.grid[0] == shell.finer[0]:
+        average_normals(sheet, *around, shell.flat, across, units)
+        cover_sheet(sheet, shell.rim, shell.half, shell.tiny, points, units)
+    else:
+        normals = np.empty((sheet.shape[0], 3))
+        average_normals(sheet, *around, shell.flat, across, normals)
+        cover_finer(
+            sheet,
+            normals,
+            (shell.grid[0], shell.grid[1]),
+            (shell.finer[0], shell.finer[1]),
+            shell.rim,
+            shell.half,
+            (shell.flat, shell.tiny),
+            points,
+            units,
+        )
     for v in range(shell.vertices.shape[0]):
         show(shell, v, vector_at(shell.points[0], v), vector_at(shell.units[0], v))
     return 0

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh, Triangles
 from drapery.style.extrusion import Shell, make_shell, thicken
+from drapery.style.refinement import cover_curves
 from drapery.style.uv_mapping import UVMapping
 
 
@@ -23,6 +24,8 @@ class Sheet:
     texel: the edge of a texel [m].
     size: width and height [m].
     facets: whether edges are sharp.
+    finer: the shell around curves through the particles of a whole grid, which is drawn; None
+        where `shell` is, as in all that shape steps get.
     """
 
     positions: Array
@@ -31,6 +34,7 @@ class Sheet:
     texel: float
     size: tuple[float, float]
     facets: bool = False
+    finer: Shell | None = None
 
     @property
     def grid_shape(self) -> tuple[int, int]:
@@ -62,6 +66,10 @@ class Sheet:
 
     def mesh(self) -> Mesh:
         """The closed mesh: two sheets and a rim, along the averaged normals or with sharp edges."""
+        if self.finer is not None:
+            normals = self.shell.normals(self.positions)
+            shape = self.grid_shape
+            return cover_curves(self.finer, shape, self.positions, normals, self.thickness)
         thick = thicken(self.shell, self.positions, self.thickness)
         return faceted(thick, _corners(self.shell)) if self.facets else thick
 

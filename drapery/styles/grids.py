@@ -1,9 +1,10 @@
-"""Shells of whole grids of particles."""
+"""Shells of whole grids of particles, and of curves through them."""
 
 from functools import lru_cache
 
 from drapery.cloth import grid
 from drapery.style.extrusion import Shell, make_shell
+from drapery.style.refinement import finer_shape
 from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
 
 
@@ -14,3 +15,13 @@ def grid_shell(rows: int, columns: int, uv_mapping: UVMapping = SHEET_MAPPING) -
     """
     cloth = grid(columns, rows, 1.0, 1.0, pins="none")
     return make_shell(cloth.triangles, cloth.uvs, uv_mapping, cloth.grid_shape)
+
+
+def finer_shell(shell: Shell, times: int) -> Shell | None:
+    """The shell of curves through the particles of a grid, with `times` cells along each cell.
+
+    None where there are none: for one cell, and for a shell with cells cut out.
+    """
+    if times == 1 or shell.grid is None:
+        return None
+    return grid_shell(*finer_shape(shell.grid, times), shell.uv_mapping)

@@ -11,13 +11,12 @@ from drapery.elementary import arctan2, cos, sin
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.vectors import dots
+from drapery.style.refinement import MAX_SIDE, on_curves
 from drapery.style.sheet import Sheet
 from drapery.style.uv_mapping import UVMapping
 from drapery.styles.grids import grid_shell
 from drapery.styles.step import costs
 
-MAX_PARTICLES = 257
-"""The most particles along one side of a sheet after a step."""
 THINNEST = 0.02
 """Level texels are at least this thick [texels]."""
 CUBE_FRONT = np.array([[-1.0, 1, 1], [1, 1, 1], [-1, -1, 1], [1, -1, 1]])
@@ -47,9 +46,7 @@ def smooth(
 
     The curves are Catmull and Rom's ("A class of local interpolating splines", 1974).
     """
-    rows, columns = (
-        min((side - 1) * times + 1, max(MAX_PARTICLES, side)) for side in sheet.grid_shape
-    )
+    rows, columns = (min((side - 1) * times + 1, max(MAX_SIDE, side)) for side in sheet.grid_shape)
     return _resampled(sheet, rows, columns, curved=True)
 
 
@@ -267,36 +264,26 @@ def _held(kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 def _resampled(sheet: Sheet, rows: int, columns: int, *, curved: bool) -> Sheet:
     """The sheet at evenly spaced points of its grid, on straight lines or on curves."""
-    points = _along(_along(sheet.grid, rows, -3, curved), columns, -2, curved)
-    positions = points.reshape(*points.shape[:-3], rows * columns, 3)
+    if curved:
+        positions = on_curves(sheet.positions, sheet.grid_shape, (rows, columns))
+    else:
+        points = _on_lines(_on_lines(sheet.grid, rows, -3), columns, -2)
+        positions = points.reshape(*points.shape[:-3], rows * columns, 3)
     return replace(
         sheet, positions=positions, shell=grid_shell(rows, columns, sheet.shell.uv_mapping)
     )
 
 
-def _along(points: Array, count: int, axis: int, curved: bool) -> Array:
-    """`count` evenly spaced points along one axis of a grid, on lines or Catmull-Rom curves."""
+def _on_lines(points: Array, count: int, axis: int) -> Array:
+    """`count` evenly spaced points along one axis of a grid, on straight lines."""
     given = points.shape[axis]
     at = np.arange(count) * (given - 1) / (count - 1)
     low = np.minimum(at.astype(int), given - 2)
-    share = at - low
     shape = [1] * points.ndim
     shape[axis] = count
-    t = share.reshape(shape)
-    start, end = points.take(low, axis), points.take(low + 1, axis)
-    if not curved:
-        straight: Array = (1 - t) * start + t * end
-        return straight
-    # Beyond the ends the first and last piece go on straight.
-    before, after = (points.take(np.clip(low + k, 0, given - 1), axis) for k in (-1, 2))
-    first, last = (low == 0).reshape(shape), (low == given - 2).reshape(shape)
-    before, after = np.where(first, 2 * start - end, before), np.where(last, 2 * end - start, after)
-    result: Array = start + 0.5 * t * (
-        end
-        - before
-        + t * (2 * before - 5 * start + 4 * end - after + t * (3 * (start - end) + after - before))
-    )
-    return result
+    t = (at - low).reshape(shape)
+    straight: Array = (1 - t) * points.take(low, axis) + t * points.take(low + 1, axis)
+    return straight
 
 
 def _mean_axes(rows: Array) -> Array:
@@ -346,10 +333,10 @@ def _least_beside(depths: Array, shifts: Array) -> Array:
 def _texels(sheet: Sheet, parts: int = 1) -> tuple[int, int]:
     """How many texels the sheet has across and down, or parts of texels. Raises OptionError."""
     across, down = (parts * max(1, round(side / sheet.texel)) for side in sheet.size)
-    if max(across, down) >= MAX_PARTICLES:
+    if max(across, down) >= MAX_SIDE:
         raise OptionError(
             f"cloth of {across // parts} x {down // parts} texels is too large for a step that"
-            f" divides it into {across} x {down} parts; at most {MAX_PARTICLES - 1} a side are made"
+            f" divides it into {across} x {down} parts; at most {MAX_SIDE - 1} a side are made"
         )
     return across, down
 
