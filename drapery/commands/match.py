@@ -74,7 +74,7 @@ MuralOption = Annotated[
 ]
 PhotoOption = Annotated[
     bool,
-    typer.Option("--photo", help="The picture is a photo of a banner before one colour."),
+    typer.Option("--photo", help="The picture is a photo of a banner in front of one colour."),
 ]
 CornersOption = Annotated[
     tuple[str, str, str, str] | None,

@@ -26,7 +26,7 @@ class Difference:
     ssim: structural similarity (Wang et al. 2004), 1 for equal pictures.
     flip: mean FLIP error (Andersson et al. 2020), 0 for equal pictures.
     ciede2000: mean colour difference (Sharma, Wu, Dalal 2005), 0 for equal pictures.
-    The last three are None unless they were asked for or are limits.
+    The last three are None unless they were requested or are limits.
     """
 
     pixels: int

@@ -114,7 +114,7 @@ class Staging:
         """A scene of each moment, on one floor, by one camera or the cameras of a turntable.
 
         meshes: those of the models of each moment.
-        models: each moment's, asked for when its scene is.
+        models: each moment's, made when its scene is.
         framed: points that the camera frames [m], each [..., 3]; all meshes unless given.
         around: see `cameras`.
         """

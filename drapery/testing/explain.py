@@ -144,7 +144,7 @@ def _ring(distance: int) -> Iterator[tuple[int, int]]:
 
 
 def _moved(old: Pixels, new: Pixels, down: int, right: int) -> bool:
-    """Whether `new` is `old` shifted, judged by shape where both overlap."""
+    """Whether `new` is `old` shifted, compared by shape where both overlap."""
     shape = old[..., 3] > 0
     height, width = shape.shape
     moved = np.roll(shape, (down, right), axis=(0, 1))
