@@ -116,6 +116,16 @@ def test_another_design_leaves_the_motion() -> None:
     assert np.array_equal(changed.particles()[0], left.particles()[0])
 
 
+def test_an_item_has_no_shadow_as_its_picture_has_none() -> None:
+    """The settings of a page keep what does nothing for what is shown now."""
+    shadows = a_live(placement="item", shadow=True), a_live(placement="item")
+    with_it, without = (live.shown().panes[0].scene for live in shadows)
+    assert len(with_it.models) == len(without.models)
+    live = a_live(shadow=True)
+    live.update(DESIGN, open_packs(()), replace(SETTINGS, placement="item", shadow=True))
+    assert len(live.shown().panes[0].scene.models) == len(without.models)
+
+
 def test_packs_side_by_side_have_one_motion() -> None:
     live = a_live()
     live.update(DESIGN, open_packs(()), SETTINGS, open_packs(()))

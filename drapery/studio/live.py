@@ -17,7 +17,7 @@ from drapery.mesh import Array, Mesh
 from drapery.packs import Packs
 from drapery.render import Camera, Model
 from drapery.scenes import STEP, LiveBody, cloth_spec, floor_under
-from drapery.settings import Settings
+from drapery.settings import OPTIONS, Settings
 from drapery.studio.live_cloth import LiveCloth, new_live_cloth
 from drapery.studio.wind_controls import (
     WindControls,
@@ -53,6 +53,7 @@ class Live:
     """
 
     def __init__(self, design: Banner | None, packs: Packs, settings: Settings) -> None:
+        settings = _lit(design, settings)
         self.wind_controls = wind_controls_of(settings)
         self.leaves_room = False
         self._cuts = 0
@@ -90,7 +91,7 @@ class Live:
         beside: other packs; then the design is shown twice, side by side. captions: the labels of
         the two sides. Raises OptionError or PackError; then nothing changes.
         """
-        before = self._live
+        before, settings = self._live, _lit(design, settings)
         body = body_of(design, packs, settings)
         other = None if beside is None else body_of(design, beside, settings)
         live = LiveBody(body, settings, self._cloths_for(body, settings), cover=_thicken)
@@ -255,6 +256,17 @@ class Live:
     def _from_world(self, number: int, points: Array) -> Array:
         origin = self._live.body.panels[number].origin
         return _turned_points(points, -self._settings.turned) - origin
+
+
+def _lit(design: Banner | None, settings: Settings) -> Settings:
+    """The settings without options of the light that the subject does not have, as in pictures."""
+    subject = settings.subject(design.kind if design else "banner")
+    idle = [
+        name
+        for name in settings.given_values
+        if "light" in OPTIONS[name].affects and not OPTIONS[name].applies(subject, "live")
+    ]
+    return settings.changed(**{name: OPTIONS[name].default for name in idle})
 
 
 def _thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
