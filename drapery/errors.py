@@ -1,10 +1,22 @@
 """Errors for users: one line with the input, the place in it and the remedy."""
 
+MAX_SHOWN = 48
+"""The most characters of a value in a message."""
+
 
 def counted(number: float, noun: str, plural: str = "") -> str:
     """A number with its noun, such as `1 golden` or `2 goldens`. plural: one without an s."""
     written = f"{number:g}" if isinstance(number, float) else f"{number}"
     return f"{written} {noun if number == 1 else plural or f'{noun}s'}"
+
+
+def shown(value: object) -> str:
+    """A value as a message quotes it: on one line, of at most 48 characters."""
+    try:
+        text = f"{value:g}" if isinstance(value, float) else " ".join(repr(value).split())
+    except ValueError:  # Python does not write whole numbers of over 4300 digits
+        return "of thousands of digits"
+    return text if len(text) <= MAX_SHOWN else text[: MAX_SHOWN - 4] + " ..."
 
 
 class DraperyError(Exception):

@@ -7,7 +7,7 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, TypeAlias
 
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 
 Audience: TypeAlias = Literal["anyone", "local", "python"]
 """Who may set an option: anyone over HTTP, the user of this machine, or only a Python program."""
@@ -67,7 +67,6 @@ _REMEDIES = dict.fromkeys(("garment", "player"), "set it in the garment's file")
 
 _TRUE = frozenset({"1", "true", "yes", "on"})
 _FALSE = frozenset({"0", "false", "no", "off"})
-_MAX_SHOWN = 48
 
 
 @dataclass(frozen=True)
@@ -258,15 +257,6 @@ def _from_text(text: str, kind: OptionType) -> object:
     except (ValueError, OverflowError):
         return text
     return number
-
-
-def shown(value: object) -> str:
-    """A value as an error message quotes it: at most some 50 characters long."""
-    try:
-        text = f"{value:g}" if isinstance(value, float) else repr(value)
-    except ValueError:  # Python does not write whole numbers of over 4300 digits
-        return "of thousands of digits"
-    return text if len(text) <= _MAX_SHOWN else text[: _MAX_SHOWN - 4] + " ..."
 
 
 def limits(least: float, most: float, unit: str = "") -> str:

@@ -16,8 +16,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, TypedDict, Unpack, get_args
 
-from drapery.errors import OptionError
-from drapery.option import Effect, Option, Output, Subject, shown, within
+from drapery.errors import OptionError, shown
+from drapery.option import Effect, Option, Output, Subject, within
 
 if TYPE_CHECKING:
     import numpy as np

@@ -13,8 +13,8 @@ from cost import limited_cost
 from drapery import Banner, draw, settings
 from drapery.cloth import Drag, Fabric, Gravity, SolverXPBD, Wind
 from drapery.commands.app import command_line
-from drapery.errors import OptionError
-from drapery.option import Option, Output, limits, one_of, shown, whole, within
+from drapery.errors import OptionError, shown
+from drapery.option import Option, Output, limits, one_of, whole, within
 from drapery.options import check_options
 from drapery.render.views import VIEWS, View
 from drapery.settings import (

@@ -4,11 +4,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.bending import grid_bending, strip_bending
-from drapery.cloth.checks import check_count, check_number, shown
+from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
 from drapery.cloth.fabric import Fabric
 from drapery.cloth.pins import Pins, pinned_particles
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.mesh import Array
 
 MAX_PARTICLES = 1_000_000

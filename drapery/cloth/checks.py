@@ -4,10 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from drapery.errors import OptionError
-
-MAX_SHOWN = 60
-"""The most characters of a wrong value that a message shows."""
+from drapery.errors import OptionError, shown
 
 
 def check_number(name: str, value: object, minimum: float, maximum: float, unit: str = "") -> float:
@@ -61,16 +58,6 @@ def vector3(name: str, value: object, maximum: float, unit: str) -> np.ndarray[A
             f"give three numbers from -{maximum:g} to {maximum:g} {unit}"
         )
     return vector
-
-
-def shown(value: object) -> str:
-    """A wrong value as one short line for a message."""
-    try:
-        text = repr(value)
-    except ValueError:  # Python does not print integers of thousands of digits
-        text = f"<{type(value).__name__}>"
-    text = " ".join(text.split())
-    return text if len(text) <= MAX_SHOWN else text[:MAX_SHOWN] + "..."
 
 
 def _float(value: object) -> float:

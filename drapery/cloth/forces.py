@@ -10,13 +10,13 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from drapery.cloth.checks import check_number, shown, vector3
+from drapery.cloth.checks import check_number, vector3
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.fabric import MAX_DRAG
 from drapery.cloth.ripples import with_waves
 from drapery.cloth.state import State
 from drapery.cloth.wind import Gusts, Wind, lower_winds
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.mesh import Array
 
 MAX_GRAVITY = 1e6

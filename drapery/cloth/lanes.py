@@ -13,11 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from drapery.cloth.checks import shown
 from drapery.cloth.pins import PinPath, PinTable
 from drapery.cloth.simd import lanes_per_register, padded_count
 from drapery.cloth.state import State
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.mesh import Array
 
 BLOCK_BYTES = 1 << 18

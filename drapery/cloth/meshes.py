@@ -15,12 +15,12 @@ from drapery.cloth.builders import (
     check_particles,
     check_size,
 )
-from drapery.cloth.checks import check_count, shown
+from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import FLEXION, STRUCTURAL, Cloth
 from drapery.cloth.fabric import Fabric
 from drapery.cloth.pins import Pins, pinned_particles
 from drapery.elementary import cos, sin
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.mesh import Array, face_normals
 from drapery.mesh_file import check_triangles, joined, read_mesh_file
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import DTypeLike
 
-from drapery.cloth.checks import check_count, shown
+from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.mesh import Array
 
 MAX_CLOTHS = 100_000_000

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from drapery.cloth.checks import shown
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.forces import Force, Gravity, lower_forces
 from drapery.cloth.pins import PinPath
@@ -18,7 +17,7 @@ from drapery.cloth.solvers.desbrun import SolverDesbrun
 from drapery.cloth.solvers.driver import KernelSolver
 from drapery.cloth.state import State, rest_state
 from drapery.cloth.strain import NEVER
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 
 if TYPE_CHECKING:
     from drapery.cloth.collisions import Collisions

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.cloth.checks import check_count, check_number, shown, vector3
-from drapery.errors import OptionError, counted
+from drapery.cloth.checks import check_count, check_number, vector3
+from drapery.errors import OptionError, counted, shown
 from drapery.mesh import Array
 
 CROSSWIND = (1.0, 0.75, 0.5)

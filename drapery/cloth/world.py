@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 
 from drapery.cloth.bending import grid_rigidity
 from drapery.cloth.builders import grid
-from drapery.cloth.checks import check_count, check_number, shown
+from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.fabric import Fabric
 from drapery.cloth.forces import Force, Gravity
 from drapery.cloth.solvers.base import Solver, check_step
 from drapery.cloth.solvers.xpbd import SolverXPBD
 from drapery.cloth.state import MAX_CLOTHS, State
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.mesh import Array
 
 FULL, HALF, STIFF = 0, 1, 2

@@ -31,8 +31,8 @@ def run(
     """Write the plain face of a banner or shield, enlarged."""
     from drapery import draw_face
     from drapery.banner import read_design
-    from drapery.errors import OptionError
-    from drapery.option import shown, within
+    from drapery.errors import OptionError, shown
+    from drapery.option import within
     from drapery.render import check_target
 
     within("scale", scale, 1, MAX_SCALE, "pixels")

@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.errors import OptionError
-from drapery.option import shown
+from drapery.errors import OptionError, shown
 from drapery.player_settings import MOTIONS
 
 MAX_BLENDED = 8

@@ -4,9 +4,8 @@ from functools import cache
 from importlib.resources import as_file, files
 from pathlib import Path
 
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.garments.model import Garment
-from drapery.option import shown
 
 ENDING = ".toml"
 

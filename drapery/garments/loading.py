@@ -6,9 +6,8 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.model_faults import said_of, wanted
-from drapery.option import shown
 from drapery.toml_text import Place, locate, read_toml
 
 MAX_BYTES = 1 << 16

@@ -27,12 +27,12 @@ from pydantic_core import PydanticCustomError
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
 from drapery.cloth import FABRICS, Fabric
-from drapery.errors import DraperyError, OptionError, counted
+from drapery.errors import DraperyError, OptionError, counted, shown
 from drapery.garments.blends import POSE_ENDING, read_blend
 from drapery.garments.loading import load_tables
 from drapery.garments.profiles import is_profile_file
 from drapery.mesh_file import MESH_ENDINGS
-from drapery.option import Subject, shown
+from drapery.option import Subject
 from drapery.options import unknown_names
 from drapery.player_settings import MAX_SPEED
 from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings, applicable, settled

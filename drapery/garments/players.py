@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from drapery.banner.packs.png_file import read_png_file
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.garments.catalogue import ENDING, find_garment
 from drapery.garments.loading import complaint_of
 from drapery.garments.model import (
@@ -20,7 +20,6 @@ from drapery.garments.model import (
     RingPiece,
 )
 from drapery.garments.profiles import Profile, profile_of
-from drapery.option import shown
 from drapery.player_settings import PlayerSettings
 from drapery.style.equipment import ARMOR_SOLID, BANNER_TEXEL, FLAG_TOP, POLES, parse_armor
 from drapery.style.figure import SKINS

@@ -12,8 +12,7 @@ from importlib import import_module
 from types import ModuleType
 from typing import get_type_hints
 
-from drapery.errors import OptionError
-from drapery.option import shown
+from drapery.errors import OptionError, shown
 from drapery.scenes.parameters import SceneParameters, read_parameters
 from drapery.scenes.picture_grid import Picture
 

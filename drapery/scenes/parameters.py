@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import Field, dataclass, field, fields
 from typing import Any, TypeVar
 
-from drapery.errors import OptionError
-from drapery.option import Option, shown
+from drapery.errors import OptionError, shown
+from drapery.option import Option
 from drapery.settings import MAX_WIND
 
 MAX_SCENE_GRID = 65

@@ -6,9 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from drapery import DraperyError
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.garments import Garment, check_skin, tailor
-from drapery.option import shown
 from drapery.studio.document import Document
 from drapery.studio.uploads import Uploads
 

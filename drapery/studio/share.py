@@ -18,8 +18,7 @@ from drapery.banner import (
     unpack_link,
     write_banner,
 )
-from drapery.errors import OptionError
-from drapery.option import shown
+from drapery.errors import OptionError, shown
 from drapery.options import parse_options
 from drapery.settings import NAMED_OPTIONS, applicable
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of

@@ -15,9 +15,8 @@ from drapery.banner.packs.equipment import MATERIALS, armor_places, needed, trim
 from drapery.banner.packs.png import Texels
 from drapery.banner.packs.resampling import nearest_texels
 from drapery.banner.sprites import tint
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.mesh import Array, Mesh
-from drapery.option import shown
 from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
 from drapery.style.block import solids, wood

@@ -13,8 +13,7 @@ from importlib.resources import as_file, files
 from operator import or_
 from typing import TYPE_CHECKING
 
-from drapery.errors import OptionError
-from drapery.option import shown
+from drapery.errors import OptionError, shown
 from drapery.settings import StyleLike
 from drapery.styles.style import Style
 

@@ -6,8 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from drapery.errors import OptionError
-from drapery.option import shown
+from drapery.errors import OptionError, shown
 from drapery.styles.chain import chain_fault
 from drapery.styles.palette_files import read_palette
 from drapery.styles.step import STEP_KINDS, StyleStep, parameter_faults

@@ -3,8 +3,7 @@
 import re
 from pathlib import Path
 
-from drapery.errors import OptionError
-from drapery.option import shown
+from drapery.errors import OptionError, shown
 from drapery.user_files import read_user_file
 
 MAX_BYTES = 1 << 16

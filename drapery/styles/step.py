@@ -7,8 +7,8 @@ from functools import lru_cache
 from inspect import Parameter, signature
 from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
-from drapery.errors import OptionError
-from drapery.option import limits, one_of, shown
+from drapery.errors import OptionError, shown
+from drapery.option import limits, one_of
 from drapery.styles.colours import COLOUR_PATTERN
 
 if TYPE_CHECKING:

@@ -5,12 +5,12 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from drapery.cloth.checks import check_count, check_number, shown
+from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.forces import Force
 from drapery.cloth.pins import PinPath
 from drapery.cloth.state import State
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.mesh import Array
 
 MIN_DT, MAX_DT = 1e-9, 1e3
