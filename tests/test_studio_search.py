@@ -3,7 +3,7 @@
 import pytest
 
 from drapery.banner import PATTERN_NAMES
-from drapery.studio.pattern_words import search_words
+from drapery.web.pattern_words import search_words
 
 
 @pytest.mark.parametrize(

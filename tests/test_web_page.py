@@ -18,7 +18,7 @@ from drapery.scenes import LiveBody
 from drapery.settings import Settings
 from drapery.style import body_of
 from drapery.web import page
-from drapery.web.bundle import ENTRY, bundled_module
+from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, ENTRY, bundled_module
 from drapery.web.gallery import ITEMS, gallery_text
 from drapery.web.messages import unpack
 from drapery.web.scene_file import scene_bytes
@@ -42,6 +42,12 @@ def test_the_bundle_is_one_module_that_imports_nothing(tmp_path: Path) -> None:
     assert text.endswith(f"export {{ {names} }};\n")
     (tmp_path / "bundle.mjs").write_text(text, encoding="utf-8")
     run_node("--check", tmp_path / "bundle.mjs")
+
+
+def test_no_two_modules_of_the_designer_share_a_name() -> None:
+    text = bundled_module(DESIGNER_ENTRY, DESIGNER_PUBLIC)
+    names = re.findall(r"^(?:async )?(?:function|class|const|let) (\w+)", text, re.M)
+    assert len(set(names)) == len(names) and not re.search(r"^import |^\s*/\*\*.*\*/$", text, re.M)
 
 
 def test_the_bundle_has_every_module_that_the_element_imports() -> None:
@@ -105,7 +111,8 @@ def test_a_package_names_its_files(
     package = json.loads((tmp_path / "dist" / "package.json").read_text())
     named = {package["main"], package["types"], "README.md", "package.json"}
     players = {f"{worn}-sneak{arms}.bin" for worn in ("cape", "elytra") for arms in ("", "-slim")}
-    assert found == named | {"standing.bin", "wall.bin", "cloth.bin"} | players
+    scenes = {f"{name}{part}.bin" for name in page.PLACEMENTS for part in ("", "-still")}
+    assert found == named | scenes | {"cloth.bin"} | players
 
 
 @pytest.mark.parametrize(
@@ -143,5 +150,8 @@ def test_the_command_refuses_targets_and_designs_that_do_not_fit(drapery: Run) -
     assert code == 2 and "banner.png: PNG holds no page; use .html or .htm" in err
     code, _, err = drapery("web", "white", "--gallery", "-o", "gallery.html")
     assert code == 2 and "the gallery has designs of its own" in err
-    code, _, err = drapery("web", "white", "--component", "-o", "dist")
-    assert code == 2 and "the package shows any design" in err
+    for flag in ("--component", "--designer"):
+        code, _, err = drapery("web", "white", flag, "-o", "dist")
+        assert code == 2 and "the package shows any design" in err
+    code, _, err = drapery("web", "--gallery", "--designer", "-o", "dist")
+    assert code == 2 and "use one of them" in err

@@ -24,6 +24,10 @@ def run(
             help="Write the package of <drapery-banner> and other elements.",
         ),
     ] = False,
+    designer: Annotated[
+        bool,
+        typer.Option("--designer", help="Write the page of <drapery-designer> into a folder."),
+    ] = False,
     gallery: Annotated[
         bool,
         typer.Option("--gallery", help="Write a page of banners, capes and players."),
@@ -31,19 +35,24 @@ def run(
     size: o.SizeOption = SIZE,
     **words: Any,
 ) -> None:
-    """Write a page with live cloth that needs no server, a gallery, or the custom element."""
+    """Write a page with live cloth that needs no server, a gallery, an element or the designer."""
     from drapery.errors import OptionError
     from drapery.render import check_target
+    from drapery.web.designer_page import write_designer
     from drapery.web.gallery import write_gallery
     from drapery.web.page import write_component, write_page
 
     settings = o.settings_of({**words, "size": size})
-    if component and gallery:
-        raise OptionError("--component writes a folder and --gallery a page; use one of them")
-    if component:
+    if component + designer + gallery > 1:
+        raise OptionError(
+            "--component and --designer write folders, and --gallery a page; use one of them"
+        )
+    if component or designer:
         if words["design"] is not None:
-            raise OptionError("the package shows any design; leave DESIGN out, or --component")
-        write_component(out, settings)
+            flag = "--component" if component else "--designer"
+            raise OptionError(f"the package shows any design; leave DESIGN out, or {flag}")
+        write = write_component if component else write_designer
+        write(out, settings)
         return
     check_target(out, "page")
     if gallery:

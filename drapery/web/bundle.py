@@ -5,21 +5,25 @@ so their texts in the order of their imports are one module. A test checks both.
 """
 
 import re
+from collections.abc import Sequence
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 WEB = Path(__file__).parent
 ENTRY = WEB / "component" / "element.js"
+DESIGNER_ENTRY = WEB / "designer" / "element.js"
 ELEMENTS = ("DraperyBanner", "DraperyCape", "DraperyElytra", "DraperyPlayer")
 PUBLIC = ("DesignError", *ELEMENTS, "readDesign")
 """What the module exports."""
+DESIGNER_PUBLIC = ("DraperyDesigner", *PUBLIC)
+"""What the designer's module exports."""
 
 _IMPORT = re.compile(r'^import \{[^}]*\} from "([^"]+)";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=async function|function|class|const)", re.MULTILINE)
-_COMMENT = re.compile(r"^\s*//.*\n", re.MULTILINE)
+_COMMENT = re.compile(r"^\s*(//.*|/\*\*([^*]|\*(?!/))*\*/)\n", re.MULTILINE)
 
 
-def bundled_module(entry: Path = ENTRY) -> str:
+def bundled_module(entry: Path = ENTRY, public: Sequence[str] = PUBLIC) -> str:
     """The text of one module that has all that a module imports, without comments."""
     imports: dict[Path, list[Path]] = {}
     unseen = [entry.resolve()]
@@ -31,7 +35,7 @@ def bundled_module(entry: Path = ENTRY) -> str:
             unseen += imports[module]
     order = TopologicalSorter(imports).static_order()
     inner = [_inner(module.read_text(encoding="utf-8")) for module in order]
-    return "".join([*inner, f"export {{ {', '.join(PUBLIC)} }};\n"])
+    return "".join([*inner, f"export {{ {', '.join(public)} }};\n"])
 
 
 def _inner(text: str) -> str:

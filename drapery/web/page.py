@@ -3,7 +3,7 @@
 import base64
 import gzip
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -24,7 +24,7 @@ from drapery.render import make_folder, replacing, webp_bytes
 from drapery.settings import Placement, Settings, applicable, settled_for
 from drapery.styles import combined_style
 from drapery.web.bundle import WEB, bundled_module
-from drapery.web.scene_file import scene_bytes
+from drapery.web.scene_file import scene_bytes, split_still
 from drapery.web.wasm.module import read_module
 
 MODULE = "drapery-banner.js"
@@ -142,6 +142,12 @@ def write_component(folder: Path, settings: Settings) -> None:
 
     Raises OutputError, and the errors of `scene_bytes`.
     """
+    check_package(settings)
+    write_files(folder, _component_files(settings))
+
+
+def check_package(settings: Settings) -> None:
+    """Raise OptionError for what a package, which shows any design, cannot show."""
     if settings.rotation or settings.facing is not None:
         raise OptionError(
             "the package shows banners that are not turned; leave out rotation and facing"
@@ -151,18 +157,20 @@ def write_component(folder: Path, settings: Settings) -> None:
             "the package shows any design, and steps of material need the renderer; use a style"
             " without them"
         )
-    files = list(_component_files(settings))
+
+
+def write_files(folder: Path, files: Iterable[tuple[str, bytes]]) -> None:
+    """Write all files, or none where one cannot be made. Raises OutputError."""
+    made = list(files)
     make_folder(folder)
-    for name, data in files:
+    for name, data in made:
         with replacing(folder / name) as partial:
             partial.write_bytes(data)
 
 
 def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     packs = open_packs(settings.packs, format=settings.format)
-    for placement in PLACEMENTS:
-        placed = settings.changed(placement=placement)
-        yield f"{placement}.bin", scene_bytes(Banner(), packs, placed)
+    yield from banner_files(packs, settings)
     for worn, pose, arms in product(WORN, POSES, ARMS):
         garment = posed_player(worn, pose, arms, overlay="whole")  # its skin can be replaced
         name = f"{worn}-{pose}{'-slim' if arms == 'slim' else ''}"
@@ -172,6 +180,13 @@ def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     for name in ("README.md", "drapery-banner.d.ts"):
         yield name, (WEB / "component" / name).read_bytes()
     yield "package.json", (json.dumps(_package(), indent=2) + "\n").encode()
+
+
+def banner_files(packs: Packs, settings: Settings) -> Iterator[tuple[str, bytes]]:
+    """The names and contents of the scenes of banners in all PLACEMENTS, and of their stills."""
+    for placement in PLACEMENTS:
+        placed = settings.changed(placement=placement)
+        yield from split_still(scene_bytes(Banner(), packs, placed), placement).items()
 
 
 def posed_player(

@@ -82,6 +82,20 @@ def scene_bytes(
     return _packed(scene, plans_of(played))
 
 
+def split_still(scene: bytes, name: str) -> dict[str, bytes]:
+    """The files `NAME.bin`, the scene, and `NAME-still.bin`, which only pictures need, if it has
+    such a part."""
+    header, arrays = unpack(gzip.decompress(scene))
+    still = arrays.pop("still", None)
+    if still is None:
+        return {f"{name}.bin": scene}
+    header["still"] = f"{name}-still.bin"
+    return {
+        f"{name}.bin": gzip.compress(pack(header, arrays), mtime=0),
+        header["still"]: gzip.compress(still.tobytes(), mtime=0),
+    }
+
+
 def _body_scene(
     design: Banner | None, packs: Packs, settings: Settings, patterns: Sequence[str]
 ) -> tuple[_Message, PlayedSubject]:

@@ -81,8 +81,8 @@ def _module(sources: tuple[str, str], tables: Mapping[str, Mapping[str, Any]]) -
     texts = [head]
     for name, table in tables.items():
         rows = (f"  {json.dumps(key)}: {json.dumps(value)}," for key, value in table.items())
-        kind = "/** @type {Record<string, any>} */\n" if name != "TABLES" else ""
-        texts.append(f"{kind}export const {name} = {{\n" + "\n".join(rows) + "\n};\n")
+        kind = "/** @type {Record<string, any>} */"
+        texts.append(f"{kind}\nexport const {name} = {{\n" + "\n".join(rows) + "\n};\n")
     return "\n".join(texts)
 
 

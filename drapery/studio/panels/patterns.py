@@ -5,11 +5,11 @@ from drapery.studio.art import pattern_names, sheet_address
 from drapery.studio.components import PatternGrid
 from drapery.studio.descriptions import dye_title, pattern_title
 from drapery.studio.panels.start import build_examples
-from drapery.studio.pattern_words import search_words
 from drapery.studio.session import Session
 from drapery.studio.sketch import place_of
 from drapery.studio.translation import translated
 from drapery.studio.widgets import on, set_props
+from drapery.web.pattern_words import search_words
 
 
 def build(session: Session) -> None:

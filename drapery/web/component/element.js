@@ -211,4 +211,7 @@ export class DraperyElytra extends DraperyPlayer {
 }
 
 const ELEMENTS = { banner: DraperyBanner, player: DraperyPlayer, cape: DraperyCape, elytra: DraperyElytra };
-for (const [name, element] of Object.entries(ELEMENTS)) customElements.define(`drapery-${name}`, element);
+for (const [name, element] of Object.entries(ELEMENTS)) {
+  const tag = `drapery-${name}`;
+  if (!customElements.get(tag)) customElements.define(tag, element); // a second copy of the module does nothing
+}

@@ -140,7 +140,8 @@ export class Player extends View {
   // The still that `drapery render` draws of the design with the options of the scene: a cloth of
   // its own moves for the time of these options.
   async picture() {
-    const { still, atlas } = this.arrays;
+    const { atlas } = this.arrays;
+    const still = this.arrays.still ?? (this.header.still && (await fileBytes(this.header.still)));
     if (!still) throw new Error(`drapery: ${this.header.noPicture}`);
     const [materials, layers] = this.tables;
     const cloth = await Cloth.load(await fileBytes(MODULE), still);

@@ -18,7 +18,7 @@ const TARGET = /^(@[aenprs](\[[^\n]{0,200}\])?|[\w-]{1,36})$/;
 export function readPasted(text, motion) {
   const hash = /^https?:\/\/[^\s#]+#(\S+)$/i.exec(text.trim());
   try {
-    const { item, left } = itemOf(text);
+    const { item, left } = detailsOf(text);
     return { work: workOf(readDesign(text), item, motion), left };
   } catch (error) {
     if (!hash || !(error instanceof DesignError)) throw error;
@@ -39,7 +39,7 @@ export function readHash(hash, instead) {
 
 /** The item of a text, and the names of what else it has.
  * @param {string} text @returns {{ item: Partial<Item>, left: string[] }} */
-function itemOf(text) {
+function detailsOf(text) {
   if (text.length > TABLES.maxText) return { item: {}, left: [] }; // the reader says so
   const read = readItem(text);
   if (!read) return { item: {}, left: [] };

@@ -42,7 +42,7 @@ gradient_up: fade blend shade ombre glow dawn bottom
 bricks: brick wall stone masonry house castle
 globe: earth world planet map
 creeper: face monster mob
-skull: pirate bones jolly roger death skeleton crossbones wither head
+skull: pirate bones jolly roger death skeleton crossbones wither head totenkopf
 flower: daisy plant blossom rose sun
 mojang: thing logo apple
 piglin: pig snout nose

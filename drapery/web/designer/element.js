@@ -1,0 +1,523 @@
+// <drapery-designer design="white creeper:lime">: an editor of banners that needs no server.
+
+import { numberOf } from "../component/attributes.js";
+import { DesignError } from "../component/design.js";
+import { DraperyBanner } from "../component/element.js";
+import { fileBytes } from "../component/shared.js";
+import { TABLES } from "../component/tables.js";
+import { FormError, VERSIONS, notKept, plainText, writeCommand } from "./commands.js";
+import { PatternGrid, dyeButtons, numberField, segments } from "./controls.js";
+import { drawPixels, icon, iconButton, make } from "./dom.js";
+import { FACE, Faces } from "./faces.js";
+import { LayerList } from "./layers.js";
+import {
+  MOTION, History, changedLayer, duplicatedLayer, movedLayer, shownOf, withLayer, withoutLayer, workOf, writeHash, writeShorthand,
+} from "./model.js";
+import { readHash, readPasted } from "./pasted.js";
+import { LIMITS, STYLES, TITLES } from "./tables.js";
+import { TEXTS } from "./texts.js";
+
+const START = "yellow gradient:red gradient_up:magenta flower:white circle:orange curly_border:red";
+const BREEZE = { ...MOTION, wind: 6 }; // in which an editor starts
+const NARROW = 704; // a page so narrow hides the motion until it is wanted [px]
+const STORED = "drapery-designer"; // the key of the history in the browser's storage, before the page's path
+const CHAT = 256; // the longest line of the game's chat [characters]
+
+/** @typedef {import("./model.js").Work} Work */
+/** @typedef {import("./model.js").Shown} Shown */
+/** @typedef {import("./model.js").Motion} Motion */
+
+/** @param {string} text */
+const capital = (text) => text[0].toUpperCase() + text.slice(1).replaceAll("_", " ");
+
+export class DraperyDesigner extends HTMLElement {
+  static observedAttributes = ["design", "wind"];
+
+  /** @type {History} */
+  #history = new History(readPasted(START, BREEZE).work);
+  /** @type {number | "field" | null} */
+  #chosen = null;
+  #dye = "black";
+  #version = VERSIONS[0];
+  /** @type {Faces | null} */
+  #faces = null;
+  /** @type {Record<string, any>} */
+  #ui = {};
+  #built = false;
+  #frame = 0;
+
+  constructor() {
+    super();
+    const styles = new CSSStyleSheet();
+    styles.replaceSync(STYLES.sheet);
+    this.attachShadow({ mode: "open" }).adoptedStyleSheets = [styles];
+  }
+
+  // The design, as the text that links hold. Any form that is read can be set. Throws DesignError.
+  get design() {
+    return writeShorthand(shownOf(this.#history.work));
+  }
+
+  set design(text) {
+    this.setDesign(text);
+  }
+
+  /** Show a design in any form that is read, or as an object { base, layers, kind }; it can be undone.
+   * Returns the names of what the text says that is not kept. Throws DesignError.
+   * @param {string | Shown} design */
+  setDesign(design) {
+    const text = typeof design === "string" ? design : JSON.stringify({ ...design, layers: design.layers.map(({ pattern, dye }) => ({ pattern, color: dye })) });
+    const { work, left } = readPasted(text, this.#history.work.motion);
+    this.#chosen = null;
+    this.#change(work);
+    return left;
+  }
+
+  /** The design in all forms: as an object, as text, as a link's `#…`, and as commands by their version;
+   * null for a version that cannot hold it. */
+  getDesign() {
+    const { item } = this.#history.work;
+    const shown = shownOf(this.#history.work);
+    const commands = Object.fromEntries(VERSIONS.map((version) => [version, this.#command(version).text]));
+    const { name, lore } = item;
+    return { ...shown, text: this.design, hash: writeHash(shown), commands, name: plainText(name), lore: lore.map(plainText), count: item.count };
+  }
+
+  connectedCallback() {
+    if (!this.#built) this.#start();
+    addEventListener("hashchange", this.#follow);
+    document.addEventListener("paste", this.#paste);
+  }
+
+  disconnectedCallback() {
+    removeEventListener("hashchange", this.#follow);
+    document.removeEventListener("paste", this.#paste);
+  }
+
+  /** @param {string} name @param {string | null} before @param {string | null} now */
+  attributeChangedCallback(name, before, now) {
+    if (!this.#built || now === null || now === before) return;
+    this.#try(() => {
+      if (name === "design") this.setDesign(now);
+      else this.#change(this.#moved({ wind: numberOf(name, now) ?? MOTION.wind }));
+    });
+  }
+
+  /** @param {Partial<Motion>} motion */
+  #moved(motion) {
+    const { work } = this.#history;
+    return { ...work, motion: { ...work.motion, ...motion } };
+  }
+
+  // Do what may fail by what a page or a user says; one line tells it.
+  #try(/** @type {() => void} */ act) {
+    try {
+      act();
+    } catch (error) {
+      if (!(error instanceof Error)) throw error;
+      this.dispatchEvent(new CustomEvent("drapery-error", { detail: `drapery: ${error.message}`, bubbles: true }));
+      this.#tell(error.message);
+    }
+  }
+
+  // Beginning
+
+  async #start() {
+    this.#built = true;
+    const [words, faces] = await Promise.all([this.#words(), Faces.open("standing.bin").catch(() => null)]);
+    this.#faces = faces;
+    const own = this.getAttribute("design");
+    this.#try(() => (this.#history = new History(readPasted(own ?? START, BREEZE).work)));
+    const kept = History.read(this.#stored());
+    if (kept && own === null) this.#history = kept;
+    this.#try(() => (this.#history.work = this.#moved({ wind: numberOf("wind", this.getAttribute("wind")) ?? this.#history.work.motion.wind })));
+    this.#build(words);
+    if (this.#hash) this.#follow();
+    this.#show();
+    this.dispatchEvent(new CustomEvent("drapery-designer-ready", { bubbles: true }));
+  }
+
+  // The words by which patterns are found; without their file, only titles.
+  async #words() {
+    try {
+      return JSON.parse(new TextDecoder().decode(await fileBytes("words.bin")));
+    } catch {
+      return {};
+    }
+  }
+
+  #stored() {
+    try {
+      return sessionStorage.getItem(STORED + location.pathname);
+    } catch {
+      return null; // the browser keeps nothing
+    }
+  }
+
+  #store() {
+    try {
+      sessionStorage.setItem(STORED + location.pathname, this.#history.write());
+    } catch {
+      // the browser keeps nothing
+    }
+  }
+
+  get #hash() {
+    return this.hasAttribute("linked") ? location.hash.slice(1) : "";
+  }
+
+  // Show the design of the page's address.
+  #follow = () => {
+    if (!this.#hash || this.#hash === writeHash(shownOf(this.#history.work))) return;
+    this.#try(() => this.#change(workOf(readHash(this.#hash), {}, this.#history.work.motion)));
+  };
+
+  // Edits
+
+  /** @param {Work} work @param {string} [key] */
+  #change(work, key) {
+    if (!this.#history.change(work, key) || !this.#built) return;
+    this.#show();
+    this.#announce();
+  }
+
+  #announce() {
+    this.#store();
+    const forms = this.getDesign();
+    if (this.hasAttribute("linked")) history.replaceState(history.state, "", `#${forms.hash}`);
+    this.dispatchEvent(new CustomEvent("drapery-change", { detail: forms, bubbles: true }));
+  }
+
+  #go(/** @type {"undo" | "redo"} */ way) {
+    if (!this.#history[way]()) return;
+    this.#chosen = null;
+    this.#tell(this.#say(way));
+    this.#show();
+    this.#announce();
+  }
+
+  #lay(/** @type {string} */ pattern) {
+    const { work } = this.#history;
+    if (typeof this.#chosen === "number") this.#change(changedLayer(work, this.#chosen, { pattern }));
+    else if (work.layers.length >= TABLES.maxLayers) this.#tell(this.#say("tooMany", { most: TABLES.maxLayers }));
+    else {
+      this.#tell(this.#say("layerIn", { pattern: this.#patternTitle(pattern), dye: capital(this.#dye) }));
+      this.#change(withLayer(work, { pattern, dye: this.#dye }));
+    }
+  }
+
+  #dyeIt(/** @type {string} */ dye) {
+    const { work } = this.#history;
+    if (this.#chosen === "field") this.#change({ ...work, base: dye });
+    else if (this.#chosen !== null) this.#change(changedLayer(work, this.#chosen, { dye }));
+    else {
+      this.#dye = dye;
+      this.#show();
+    }
+  }
+
+  /** @type {import("./layers.js").Acts} */
+  #acts = {
+    select: (at) => {
+      this.#chosen = at;
+      this.#show();
+    },
+    move: (from, to) => {
+      if (this.#chosen === from) this.#chosen = to;
+      this.#change(movedLayer(this.#history.work, from, to));
+    },
+    hide: (at) => this.#change(changedLayer(this.#history.work, at, { hidden: !this.#history.work.layers[at].hidden })),
+    remove: (at) => {
+      this.#chosen = null;
+      this.#tell(`${this.#say("delete")}: ${this.#patternTitle(this.#history.work.layers[at].pattern)}`);
+      this.#change(withoutLayer(this.#history.work, at));
+    },
+    double: (at) => {
+      if (this.#history.work.layers.length >= TABLES.maxLayers) this.#tell(this.#say("tooMany", { most: TABLES.maxLayers }));
+      else this.#change(duplicatedLayer(this.#history.work, at));
+    },
+  };
+
+  #random() {
+    if (!this.#faces) return;
+    this.#chosen = null;
+    const { item, motion, kind } = this.#history.work;
+    this.#change(workOf({ ...this.#faces.random(), kind }, item, motion));
+  }
+
+  // Words
+
+  /** @param {string} key @param {Record<string, any>} [values] @returns {string} */
+  #say(key, values = {}) {
+    const text = /** @type {Record<string, string>} */ (TEXTS)[key];
+    return text.replace(/\{(\w+)\}/g, (_, name) => String(values[name] ?? ""));
+  }
+
+  #patternTitle(/** @type {string} */ pattern) {
+    const heraldic = TITLES[pattern];
+    const plain = capital(pattern);
+    return heraldic && heraldic !== plain ? `${plain} / ${heraldic}` : plain;
+  }
+
+  #tell(/** @type {string} */ text) {
+    if (this.#ui.status) this.#ui.status.textContent = text;
+  }
+
+  // The page
+
+  #build(/** @type {Record<string, string>} */ words) {
+    const say = this.#say.bind(this);
+    const names = this.#faces?.patterns.filter((/** @type {string} */ name) => Object.hasOwn(TITLES, name)) ?? [];
+    const patterns = names.map((/** @type {string} */ name) => ({ name, title: this.#patternTitle(name), caption: capital(name), words: words[name] ?? name }));
+    const titles = { dye: capital, pattern: (/** @type {string} */ name) => this.#patternTitle(name) };
+    const ui = {
+      status: make("p", { class: "status", role: "status" }),
+      dyes: dyeButtons((dye) => this.#dyeIt(dye), { label: say("dyes"), titleOf: capital }),
+      grid: patterns.length ? new PatternGrid(patterns, (name) => this.#lay(name), { label: say("patterns"), find: say("find"), nothing: say("noPatterns") }) : null,
+      layers: new LayerList(this.#acts, say, titles),
+      undo: iconButton("undo", say("undo"), () => this.#go("undo"), { "aria-keyshortcuts": "Control+Z" }),
+      redo: iconButton("redo", say("redo"), () => this.#go("redo"), { "aria-keyshortcuts": "Control+Y" }),
+      kind: segments(`${say("banner")} / ${say("shield")}`, { banner: say("banner"), shield: say("shield") }, (kind) => this.#change({ ...this.#history.work, kind })),
+      heading: make("h2", { class: "mode" }),
+      hint: make("span", { class: "hint" }),
+      done: make("button", { type: "button", class: "quiet", onclick: () => this.#acts.select(null) }, say("add")),
+    };
+    this.#ui = ui;
+    const bar = make("header", { class: "bar" },
+      make("h1", {}, say("title")), ui.status,
+      make("div", { class: "tools", role: "toolbar", "aria-label": say("title") }, ui.undo, ui.redo,
+        iconButton("dice", say("random"), () => this.#random()),
+        iconButton("clear", say("clear"), () => this.#change({ ...this.#history.work, layers: [] })), ui.kind.group));
+    const dyes = make("section", { class: "dyes", "aria-label": say("dyes") },
+      make("div", { class: "mode-line" }, ui.heading, ui.hint, ui.done), ui.dyes.group);
+    const made = ui.grid ? make("section", { class: "make", "aria-label": say("patterns") },
+      make("div", { class: "search" }, make("h2", {}, say("patterns")), ui.grid.field, ui.grid.count), ui.grid.nothing, ui.grid.grid) : null;
+    const app = make("div", { class: "app", onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event) },
+      bar, this.#stage(), dyes, made, this.#side());
+    /** @type {ShadowRoot} */ (this.shadowRoot).replaceChildren(app);
+  }
+
+  #stage() {
+    const say = this.#say.bind(this);
+    const flat = make("canvas", { ...FACE, class: "flat" });
+    const banner = new DraperyBanner();
+    banner.append(flat);
+    const fault = make("p", { class: "fault", role: "alert", hidden: true });
+    banner.addEventListener("drapery-error", (event) => {
+      event.stopPropagation();
+      Object.assign(fault, { hidden: false, textContent: String(/** @type {CustomEvent} */ (event).detail).replace(/^drapery: /, "") });
+    });
+    banner.addEventListener("drapery-ready", () => (fault.hidden = true));
+    const pause = make("button", { type: "button", class: "icon pause", onclick: () => (banner.paused = !banner.paused) });
+    new MutationObserver(() => this.#showPause()).observe(banner, { attributes: true, attributeFilter: ["paused"] });
+    const number = (/** @type {"wind" | "direction"} */ name, /** @type {string} */ unit) => {
+      const [least, most] = TABLES.bounds[name];
+      const change = (/** @type {number} */ value) => this.#change(this.#moved({ [name]: value }), name);
+      return numberField({ name: say(name), unit: say(unit), bounds: [least, most], error: say("notNumber", { least, most }), change });
+    };
+    const placement = segments(say("place"), { standing: say("standing"), wall: say("wall") }, (value) => this.#change(this.#moved({ placement: value })));
+    const motion = { wind: number("wind", "unitSpeed"), direction: number("direction", "unitDegrees"), placement };
+    const note = make("p", { class: "hint", hidden: true }, say("shieldHint"));
+    Object.assign(this.#ui, { banner, flat, fault, pause, motion, note });
+    return make("section", { class: "stage", "aria-label": say("stage") },
+      make("div", { class: "sky" }, banner, pause), fault, note,
+      make("details", { class: "motion", open: this.clientWidth > NARROW }, make("summary", {}, say("motion")), motion.wind.whole, motion.direction.whole, placement.group));
+  }
+
+  #side() {
+    const say = this.#say.bind(this);
+    const { layers } = this.#ui;
+    const count = make("span", { class: "hint" });
+    const empty = make("p", { class: "hint" }, say("noLayers"));
+    const version = make("select", { class: "version", "aria-label": say("version"), onchange: () => {
+      this.#version = version.value;
+      this.#showCommand();
+    } }, ...VERSIONS.map((id) => make("option", { value: id }, this.#versionTitle(id))));
+    const command = make("textarea", { class: "command", readOnly: true, rows: 3, spellcheck: false, "aria-label": say("copyCommand"), onfocus: () => command.select() });
+    const about = make("p", { class: "hint" });
+    const copy = make("button", { type: "button", class: "main", onclick: () => this.#copy(command.value, "copyCommand") }, say("copyCommand"));
+    const link = make("button", { type: "button", onclick: () => this.#copy(this.#link(), "copyLink") }, say("copyLink"));
+    const png = make("button", { type: "button", onclick: () => this.#save() }, say("png"));
+    const embed = make("button", { type: "button", onclick: () => this.#copy(this.#embed(), "copyEmbed") }, say("copyEmbed"));
+    const field = make("input", { type: "text", class: "paste", placeholder: say("pasteHint"), "aria-label": say("paste"), "aria-describedby": "paste-fault", spellcheck: false, autocomplete: "off",
+      onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "Enter" && this.#read(field.value) });
+    const wrong = make("p", { class: "fault", id: "paste-fault", role: "alert", hidden: true });
+    const read = make("button", { type: "button", onclick: () => this.#read(field.value) }, say("read"));
+    Object.assign(this.#ui, { count, empty, version, command, about, copy, field, wrong });
+    return make("section", { class: "side" },
+      make("div", { class: "panel" }, make("div", { class: "head" }, make("h2", {}, say("layers")), count), empty, layers.list),
+      make("div", { class: "panel" }, make("h2", {}, say("share")),
+        make("div", { class: "row" }, version, copy), command, about,
+        make("div", { class: "row" }, link, png, embed)),
+      make("div", { class: "panel" }, make("h2", {}, say("paste")), make("div", { class: "row" }, field, read), wrong));
+  }
+
+  #versionTitle(/** @type {string} */ id) {
+    /** @type {Record<string, string>} */
+    const ranges = { "1.21.5": "1.21.5+", "1.20.5": "1.20.5 – 1.21.4", 1.13: "1.13 – 1.20.4", 1.8: "1.8 – 1.12" };
+    return ranges[id] ? this.#say("java", { version: ranges[id] }) : this.#say("bedrock");
+  }
+
+  #press(/** @type {KeyboardEvent} */ event) {
+    const isTyping = event.target instanceof HTMLElement && event.target.matches("input:not([type=range]), textarea, select");
+    const key = event.key.toLowerCase();
+    if ((event.ctrlKey || event.metaKey) && !isTyping && (key === "z" || key === "y")) this.#go(key === "y" || event.shiftKey ? "redo" : "undo");
+    else if (key === "/" && !isTyping) this.#ui.grid?.field.focus();
+    else if (key === "escape" && !isTyping && this.#chosen !== null) this.#acts.select(null);
+    else return;
+    event.preventDefault();
+  }
+
+  // Showing
+
+  #show() {
+    const { work } = this.#history;
+    const [ui, faces] = [this.#ui, this.#faces];
+    const shown = shownOf(work);
+    const { motion } = work;
+    if (typeof this.#chosen === "number" && !work.layers[this.#chosen]) this.#chosen = null;
+    ui.fault.hidden = true;
+    for (const [name, value] of Object.entries({ design: writeShorthand(shown), kind: motion.placement, wind: String(motion.wind), direction: String(motion.direction) }))
+      if (ui.banner.getAttribute(name) !== value) ui.banner.setAttribute(name, value);
+    ui.motion.wind.show(motion.wind);
+    ui.motion.direction.show(motion.direction);
+    ui.motion.placement.show(motion.placement);
+    ui.kind.show(work.kind);
+    ui.note.hidden = work.kind !== "shield";
+    ui.undo.disabled = !this.#history.past.length;
+    ui.redo.disabled = !this.#history.future.length;
+    ui.count.textContent = this.#say("layersCount", { count: work.layers.length, most: TABLES.maxLayers }) + (shown.layers.length > LIMITS.loomLayers ? ` · ${this.#say("loomNot", { most: LIMITS.loomLayers })}` : "");
+    ui.empty.hidden = work.layers.length > 0;
+    this.#showMode();
+    this.#showPause();
+    this.#showCommand();
+    if (!faces) return;
+    ui.layers.show(work, this.#chosen, faces);
+    if (!this.#frame) this.#frame = requestAnimationFrame(() => this.#showFaces());
+  }
+
+  #showMode() {
+    const { work } = this.#history;
+    const ui = this.#ui;
+    const at = this.#chosen;
+    const layer = typeof at === "number" ? work.layers[at] : null;
+    const dye = layer?.dye ?? (at === "field" ? work.base : this.#dye);
+    ui.heading.textContent = layer ? this.#say("change", { number: Number(at) + 1, pattern: capital(layer.pattern) }) : this.#say(at === "field" ? "field" : "add");
+    ui.hint.textContent = this.#say(layer ? "changeHint" : at === "field" ? "fieldHint" : "addHint");
+    ui.done.hidden = at === null;
+    ui.dyes.show(dye);
+  }
+
+  // Previews of all patterns, once a frame.
+  #showFaces() {
+    this.#frame = 0;
+    const [ui, faces] = [this.#ui, this.#faces];
+    const { work } = this.#history;
+    if (!faces || !ui.grid) return;
+    const known = work.layers.map((layer, at) => ({ ...layer, at })).filter(({ hidden, pattern }) => !hidden && faces.patterns.includes(pattern));
+    const chosen = this.#chosen;
+    const others = known.filter(({ at }) => at !== chosen);
+    const place = typeof chosen === "number" ? others.filter(({ at }) => at < chosen).length : others.length;
+    const dye = typeof chosen === "number" ? work.layers[chosen].dye : this.#dye;
+    const names = ui.grid.patterns.map((/** @type {{ name: string }} */ { name }) => name);
+    ui.grid.show(faces.previews({ base: work.base, layers: others }, place, dye, names), typeof chosen === "number" ? work.layers[chosen].pattern : undefined);
+    drawPixels(ui.flat, faces.face({ base: work.base, layers: known }));
+  }
+
+  #showPause() {
+    const { banner, pause } = this.#ui;
+    const label = this.#say(banner.paused ? "play" : "pause");
+    pause.replaceChildren(icon(banner.paused ? "play" : "pause"));
+    pause.setAttribute("aria-label", label);
+    pause.title = label;
+  }
+
+  /** @param {string} version @returns {{ text: string | null, reason: string }} */
+  #command(version) {
+    const { work } = this.#history;
+    try {
+      return { text: writeCommand(version, shownOf(work), work.item), reason: "" };
+    } catch (error) {
+      if (error instanceof FormError) return { text: null, reason: error.message };
+      throw error;
+    }
+  }
+
+  #showCommand() {
+    const { command, about, copy } = this.#ui;
+    const { text, reason } = this.#command(this.#version);
+    const lost = notKept(this.#version, this.#history.work.item).map((key) => this.#say(key));
+    command.value = text ?? "";
+    copy.disabled = text === null;
+    if (text === null) about.textContent = this.#say("formLacks", { version: this.#versionTitle(this.#version), reason });
+    else if (lost.length) about.textContent = this.#say("lost", { what: lost.join(", ") });
+    else about.textContent = text.length > CHAT && this.#version !== "bedrock" ? this.#say("long", { count: text.length }) : "";
+  }
+
+  // Taking in and out
+
+  #link() {
+    const own = this.hasAttribute("linked") ? location.href.split("#")[0] : (this.getAttribute("page") ?? location.href.split("#")[0]);
+    return `${own}#${writeHash(shownOf(this.#history.work))}`;
+  }
+
+  #embed() {
+    const { wind, direction, placement } = this.#history.work.motion;
+    const source = new URL("drapery-designer.js", import.meta.url).href;
+    return `<script type="module" src="${source}"></script>\n<drapery-banner design="${this.design}" kind="${placement}" wind="${wind}" direction="${direction}"></drapery-banner>`;
+  }
+
+  async #copy(/** @type {string} */ text, /** @type {string} */ what) {
+    try {
+      await navigator.clipboard.writeText(text);
+      this.#tell(`${this.#say("copied")}: ${this.#say(what)}`);
+    } catch {
+      const { command } = this.#ui; // pages without https have no clipboard
+      command.value = text;
+      command.focus();
+      command.select();
+      this.#tell(this.#say(document.execCommand("copy") ? "copied" : "copyFailed"));
+    }
+  }
+
+  async #save() {
+    const { banner } = this.#ui;
+    try {
+      const picture = await banner.picture();
+      const canvas = make("canvas", { width: picture.width, height: picture.height });
+      canvas.getContext("2d").putImageData(picture, 0, 0);
+      const blob = await new Promise((done) => canvas.toBlob(done));
+      const address = URL.createObjectURL(/** @type {Blob} */ (blob));
+      make("a", { href: address, download: "banner.png" }).click();
+      setTimeout(() => URL.revokeObjectURL(address), 10_000);
+    } catch (error) {
+      this.#tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
+    }
+  }
+
+  #read(/** @type {string} */ text) {
+    const { field, wrong } = this.#ui;
+    try {
+      const left = this.setDesign(text);
+      field.value = "";
+      this.#tell(left.length ? this.#say("notKept", { what: left.join(", ") }) : "");
+      wrong.hidden = true;
+    } catch (error) {
+      if (!(error instanceof DesignError)) throw error;
+      field.value = text.slice(0, TABLES.maxText);
+      Object.assign(wrong, { hidden: false, textContent: this.#say("notRead", { reason: error.message }) });
+    }
+    field.setAttribute("aria-invalid", String(!wrong.hidden));
+  }
+
+  // A text that is pasted outside of fields.
+  #paste = (/** @type {ClipboardEvent} */ event) => {
+    const [target] = event.composedPath();
+    const isOurs = target === document.body || event.composedPath().includes(this);
+    if (!isOurs || (target instanceof HTMLElement && target.matches("input, textarea, [contenteditable]"))) return;
+    const text = event.clipboardData?.getData("text/plain");
+    if (text && this.#built) this.#read(text);
+  };
+}
+
+if (!customElements.get("drapery-designer")) customElements.define("drapery-designer", DraperyDesigner);

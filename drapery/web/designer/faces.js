@@ -1,0 +1,125 @@
+// Flat faces of designs, of the textures that the live cloth has: for previews of all patterns.
+
+import { fileBytes } from "../component/shared.js";
+import { TABLES } from "../component/tables.js";
+import { unpack } from "../viewer/messages.js";
+
+/** @typedef {{ pattern: string, dye: string }} Layer */
+
+export const FACE = { width: 20, height: 40 }; // of a flag's front, whose left top is at 1, 1 of 64 [texels]
+const SIDE_UNITS = 64;
+
+export class Faces {
+  /** The faces of a scene's textures.
+   * @param {string} name of the scene's file */
+  static async open(name) {
+    const { header, arrays } = unpack((await fileBytes(name)).buffer);
+    return new Faces(header, arrays);
+  }
+
+  /** @param {any} header @param {any} arrays */
+  constructor(header, arrays) {
+    this.header = header;
+    this.arrays = arrays;
+    this.first = arrays.materials[4 * arrays.vertexMaterials[header.grip[0][0]]];
+    /** @type {Map<string, Uint8Array>} */
+    this.masks = new Map();
+  }
+
+  get patterns() {
+    return this.header.sheets.filter((/** @type {string} */ name) => name);
+  }
+
+  /** The texels of a pattern's front; of the cloth itself for "". Throws Error for another name.
+   * @param {string} pattern */
+  mask(pattern) {
+    const known = this.masks.get(pattern);
+    if (known) return known;
+    const sheet = this.header.sheets.indexOf(pattern);
+    if (sheet < 0) throw new Error(`there is no texture of the pattern '${pattern}' here`);
+    const { atlas, layers } = this.arrays;
+    const [left, top, width, height] = layers.subarray(7 * (this.first + sheet));
+    const wide = this.header.atlas[0];
+    const mask = new Uint8Array(4 * FACE.width * FACE.height);
+    for (let at = 0; at < mask.length / 4; at++) {
+      const [x, y] = [at % FACE.width, Math.floor(at / FACE.width)].map((texel) => texel + 1.5);
+      const from = 4 * ((top + Math.floor((y * height) / SIDE_UNITS)) * wide + left + Math.floor((x * width) / SIDE_UNITS));
+      mask.set(atlas.subarray(from, from + 4), 4 * at);
+    }
+    this.masks.set(pattern, mask);
+    return mask;
+  }
+
+  /** The face of a design, as `drapery.banner.composite` makes it: RGBA of 20 x 40 texels.
+   * @param {{ base: string, layers: Layer[] }} design @returns {Uint8ClampedArray} */
+  face({ base, layers }) {
+    const pixels = new Uint8ClampedArray(this.mask(""));
+    for (let at = 3; at < pixels.length; at += 4) pixels[at] = 255;
+    for (const layer of [{ pattern: "base", dye: base }, ...layers]) this.lay(pixels, layer);
+    return pixels;
+  }
+
+  /** Lay a pattern over pixels.
+   * @param {Uint8ClampedArray} pixels @param {Layer} layer */
+  lay(pixels, { pattern, dye }) {
+    const mask = this.mask(pattern);
+    const rgb = TABLES.rgb[dye];
+    for (let at = 0; at < pixels.length; at += 4) {
+      const alpha = mask[at + 3];
+      if (!alpha) continue;
+      for (let channel = 0; channel < 3; channel++) {
+        const dyed = Math.round((mask[at + channel] * rgb[channel]) / 255);
+        pixels[at + channel] = Math.round((alpha * dyed + (255 - alpha) * pixels[at + channel]) / 255);
+      }
+    }
+  }
+
+  /** The faces of a design with each pattern at a place, beside each other in one picture. Where a
+   * pattern would not be seen in the dye, it has another one.
+   * @param {{ base: string, layers: Layer[] }} design @param {number} at @param {string} dye @param {string[]} patterns */
+  previews({ base, layers }, at, dye, patterns) {
+    const below = this.face({ base, layers: layers.slice(0, at) });
+    const above = layers.slice(at);
+    const sheet = new ImageData(FACE.width * patterns.length, FACE.height);
+    const isPale = TABLES.rgb[dye].reduce((/** @type {number} */ sum, /** @type {number} */ part) => sum + part) > 382;
+    patterns.forEach((pattern, number) => {
+      let face = below.slice();
+      this.lay(face, { pattern, dye });
+      if (difference(below, face) < 0.005) this.lay((face = below.slice()), { pattern, dye: isPale ? "black" : "white" });
+      for (const layer of above) this.lay(face, layer);
+      for (let row = 0; row < FACE.height; row++)
+        sheet.data.set(face.subarray(4 * FACE.width * row, 4 * FACE.width * (row + 1)), 4 * (row * sheet.width + number * FACE.width));
+    });
+    return sheet;
+  }
+
+  /** A design of so many layers, each of which is seen.
+   * @param {() => number} chance from 0 to 1 */
+  random(chance = Math.random) {
+    const one = (/** @type {string[]} */ list) => list[Math.floor(chance() * list.length)];
+    const dyes = [one(TABLES.dyes), one(TABLES.dyes), one(TABLES.dyes)];
+    const design = { base: dyes[0], kind: "banner", layers: /** @type {Layer[]} */ ([]) };
+    const most = 3 + Math.floor(chance() * 3);
+    for (let tries = 0; design.layers.length < most && tries < 60; tries++) {
+      const layer = { pattern: one(this.patterns.filter((/** @type {string} */ name) => name !== "base")), dye: one(dyes) };
+      const layers = [...design.layers, layer];
+      if (layers.every((_, number) => this.isSeen(design.base, layers, number))) design.layers = layers;
+    }
+    return design;
+  }
+
+  /** Whether a layer changes what is seen of a design.
+   * @param {string} base @param {Layer[]} layers @param {number} number */
+  isSeen(base, layers, number) {
+    const without = this.face({ base, layers: layers.toSpliced(number, 1) });
+    return difference(without, this.face({ base, layers })) > 0.02;
+  }
+}
+
+/** The mean difference of two pictures, of 1.
+ * @param {Uint8ClampedArray} one @param {Uint8ClampedArray} other */
+function difference(one, other) {
+  let sum = 0;
+  for (let at = 0; at < one.length; at++) sum += Math.abs(one[at] - other[at]);
+  return sum / (255 * 3 * (one.length / 4));
+}

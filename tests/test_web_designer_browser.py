@@ -1,0 +1,227 @@
+"""The designer in a real browser: edits, undo, commands, links, keys, and all widths."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from selenium.webdriver import ActionChains, Keys
+from studio_browser import PHONE, resize, wait_until
+from test_web_browser import served
+
+from drapery import Banner
+from drapery.banner import PATTERN_NAMES, ItemDetails, write_give
+from drapery.settings import Settings
+from drapery.web.designer_page import write_designer
+
+DESKTOP = (1440, 900)
+HOST = "document.querySelector('drapery-designer')"
+ROOT = f"{HOST}.shadowRoot"
+COPIED = """
+window.copied = [];
+navigator.clipboard.writeText = async (text) => { window.copied.push(text); };
+"""
+
+
+@pytest.fixture(scope="module")
+def site(
+    playable: Callable[..., Settings], tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[str]:
+    folder = tmp_path_factory.mktemp("designer")
+    write_designer(folder, playable(size=(320, 480)))
+    yield from served(folder)
+
+
+def open_designer(chromium: Any, address: str, size: tuple[int, int] = DESKTOP) -> None:
+    """Load the page without what it kept, and wait for its controls."""
+    resize(chromium, size)
+    chromium.get(address)
+    chromium.execute_script("sessionStorage.clear(); document.title = 'old'; location.reload();")
+    wait_until(lambda: chromium.title != "old" and run(chromium, f"!!{ROOT}.querySelector('.app')"))
+    chromium.execute_script(COPIED)
+
+
+def run(chromium: Any, expression: str, *words: Any) -> Any:
+    return chromium.execute_script(f"return {expression};", *words)
+
+
+def press(chromium: Any, selector: str) -> None:
+    """Press what a selector finds in the element."""
+    chromium.execute_script(f"{ROOT}.querySelector(arguments[0]).click();", selector)
+
+
+def typed(chromium: Any, selector: str, text: str) -> Any:
+    """The field that a selector finds, with a text typed into it in place of its own."""
+    field = run(chromium, f"{ROOT}.querySelector(arguments[0])", selector)
+    chromium.execute_script("arguments[0].focus(); arguments[0].select();", field)
+    ActionChains(chromium).send_keys(text).perform()
+    return field
+
+
+def design(chromium: Any) -> str:
+    return str(run(chromium, f"{HOST}.design"))
+
+
+def test_layers_are_added_undone_and_copied_as_a_command(chromium: Any, site: str) -> None:
+    open_designer(chromium, f"{site}/#white,creeper:lime")
+    chromium.execute_script(
+        "window.heard = [];"
+        f"{HOST}.addEventListener('drapery-change', (event) => heard.push(event.detail));"
+    )
+    press(chromium, '[data-dye="red"]')
+    press(chromium, '[data-pattern="border"]')
+    assert design(chromium) == "white creeper:lime border:red"
+    assert run(chromium, "heard.at(-1).commands['1.8']").startswith(
+        "/give @p minecraft:banner 1 15"
+    )
+    assert run(chromium, "location.hash") == "#white,creeper:lime,border:red"
+    press(chromium, ".main")
+    banner = Banner.parse("white creeper:lime border:red")
+    wait_until(lambda: run(chromium, "copied[0]"))
+    assert run(chromium, "copied[0]") == write_give(banner, "give", ItemDetails())
+    app = run(chromium, f"{ROOT}.querySelector('.layer')")
+    app.send_keys(Keys.CONTROL + "z")
+    assert design(chromium) == "white creeper:lime"
+    app = run(chromium, f"{ROOT}.querySelector('.layer')")
+    app.send_keys(Keys.CONTROL + "y")
+    assert design(chromium) == "white creeper:lime border:red"
+    shown = f"{ROOT}.querySelector('drapery-banner').getAttribute('design')"
+    assert run(chromium, shown) == "white creeper:lime border:red"
+
+
+def test_a_link_opens_the_design_and_a_reload_keeps_the_history(chromium: Any, site: str) -> None:
+    open_designer(chromium, f"{site}/#white,creeper:lime")
+    press(chromium, '[data-pattern="skull"]')
+    press(chromium, ".side .row + .command + .hint + .row button")
+    link = wait_until(lambda: run(chromium, "copied[0]"))
+    assert link == f"{site}/index.html#white,creeper:lime,skull:black" or link == (
+        f"{site}/#white,creeper:lime,skull:black"
+    )
+    chromium.execute_script("location.reload();")
+    wait_until(lambda: run(chromium, f"!!{ROOT}?.querySelector('.app') && !window.copied"))
+    press(chromium, '[aria-keyshortcuts="Control+Z"]')
+    assert design(chromium) == "white creeper:lime"
+    open_designer(chromium, link)
+    assert design(chromium) == "white creeper:lime skull:black"
+
+
+def test_the_keyboard_alone_edits_layers(chromium: Any, site: str) -> None:
+    open_designer(chromium, f"{site}/#white,creeper:lime,border:black,skull:red")
+    layer = run(chromium, f"{ROOT}.querySelector('.layer')")  # the skull
+    layer.send_keys(Keys.ALT + Keys.ARROW_DOWN)
+    assert design(chromium) == "white creeper:lime skull:red border:black"
+    focused = f"{ROOT}.activeElement"
+    run(chromium, focused).send_keys("h")
+    assert design(chromium) == "white creeper:lime border:black"
+    run(chromium, focused).send_keys("d")
+    run(chromium, focused).send_keys(Keys.ARROW_UP)
+    run(chromium, focused).send_keys(Keys.DELETE)
+    run(chromium, focused).send_keys(Keys.ENTER)
+    assert run(chromium, f"{focused}.getAttribute('aria-pressed')") == "true"
+    pattern = run(chromium, f"{ROOT}.querySelector('.pattern[tabindex=\"0\"]')")
+    pattern.send_keys(Keys.ARROW_RIGHT)
+    assert run(chromium, f"{focused}.dataset.pattern") == PATTERN_NAMES[1]
+    pattern.send_keys("/")
+    assert run(chromium, f"{focused}.type") == "search"
+
+
+@pytest.mark.parametrize("words", ["Totenkopf", "pirate", "skull charge", "sku", "czaszki", "头颅"])
+def test_patterns_are_found_by_names_codes_and_everyday_words(
+    chromium: Any, site: str, words: str
+) -> None:
+    open_designer(chromium, site)
+    typed(chromium, ".find", words).send_keys(Keys.ENTER)
+    assert design(chromium).split()[-1] == "skull:black"
+
+
+def test_numbers_are_typed_with_a_comma_and_errors_stand_at_their_field(
+    chromium: Any, site: str
+) -> None:
+    open_designer(chromium, site)
+    wind = f"{ROOT}.querySelector('drapery-banner').getAttribute('wind')"
+    typed(chromium, ".number", "2,5")
+    assert run(chromium, wind) == "2.5"
+    for wrong in ("-5", "1e9", "41", "fast"):
+        field = typed(chromium, ".number", wrong)
+        assert run(chromium, "arguments[0].getAttribute('aria-invalid')", field) == "true"
+        assert field.get_attribute("value") == wrong
+        assert 0 <= float(run(chromium, wind)) <= 40
+    fault = run(chromium, f"{ROOT}.querySelector('.number-field .fault').textContent")
+    assert fault == "Write a number from 0 to 40."
+    press(chromium, '[aria-keyshortcuts="Control+Z"]')
+    assert run(chromium, wind) == "6"
+
+
+def test_texts_are_pasted_with_name_lore_and_count(chromium: Any, site: str) -> None:
+    open_designer(chromium, site)
+    details = ItemDetails("@a", 3, "Flag", ("of the north",))
+    text = write_give(Banner.parse("red cross:white"), "give", details)
+    typed(chromium, ".paste", text).send_keys(Keys.ENTER)
+    assert design(chromium) == "red cross:white"
+    for version, form in (("1.21.5", "give"), ("1.8", "give-1.12")):
+        found = run(chromium, f"{HOST}.getDesign().commands['{version}']")
+        assert found == write_give(Banner.parse("red cross:white"), form, details)
+    typed(chromium, ".paste", "plaid <b>").send_keys(Keys.ENTER)
+    fault = run(chromium, f"{ROOT}.querySelector('#paste-fault').textContent")
+    assert fault.startswith("unknown dye 'plaid'") and "drapery studio" in fault
+    assert design(chromium) == "red cross:white"
+
+
+def test_properties_and_methods_take_every_form(chromium: Any, site: str) -> None:
+    open_designer(chromium, site)
+    chromium.execute_script(f"{HOST}.design = '/give @p minecraft:red_banner';")
+    assert design(chromium) == "red"
+    given = {"base": "blue", "layers": [{"pattern": "skull", "dye": "white"}], "kind": "shield"}
+    assert run(chromium, f"{HOST}.setDesign(arguments[0])", given) == []
+    assert design(chromium) == "shield blue skull:white"
+    chromium.execute_script(f"{HOST}.setAttribute('design', 'lime')")
+    assert design(chromium) == "lime"
+    thrown = "(() => { try { %s.design = 'plaid'; } catch (e) { return e.message; } })()"
+    assert "unknown dye" in run(chromium, thrown % HOST)
+
+
+def test_random_designs_have_no_layer_that_is_not_seen(chromium: Any, site: str) -> None:
+    open_designer(chromium, site)
+    seen = set()
+    for _ in range(10):
+        press(chromium, '[aria-label="Random design"]')
+        seen.add(design(chromium))
+    assert len(seen) == 10
+    assert all(3 <= len(text.split()) <= 7 and " base:" not in text for text in seen)
+
+
+def test_all_patterns_are_on_one_screen_and_no_page_is_too_wide(chromium: Any, site: str) -> None:
+    open_designer(chromium, site)
+    below = f"[...{ROOT}.querySelectorAll('.pattern')].map((e) => e.getBoundingClientRect().bottom)"
+    bottoms = run(chromium, below)
+    assert len(bottoms) == len(PATTERN_NAMES) and max(bottoms) <= DESKTOP[1]
+    for size in (DESKTOP, PHONE, (320, 640), (1000, 700)):
+        resize(chromium, size)
+        assert run(chromium, "document.documentElement.scrollWidth") <= size[0], size
+        dyes = run(chromium, f"{ROOT}.querySelector('.dye-grid').getBoundingClientRect().bottom")
+        assert size != PHONE or dyes <= PHONE[1]  # in reach
+
+
+def test_controls_have_names(chromium: Any, site: str) -> None:
+    open_designer(chromium, site)
+    nameless = f"""[...{ROOT}.querySelectorAll('button, input, select, textarea')].filter((e) =>
+      !(e.getAttribute('aria-label') || e.innerText || e.labels?.[0]?.innerText).trim()).length"""
+    assert run(chromium, nameless) == 0
+    assert run(chromium, f"{ROOT}.querySelector('.status').getAttribute('role')") == "status"
+
+
+def test_the_picture_is_that_of_the_package(chromium: Any, site: str) -> None:
+    open_designer(chromium, site)
+    banner = f"{ROOT}.querySelector('drapery-banner')"
+    wait_until(lambda: run(chromium, f"!{banner}.shadowRoot.querySelector('canvas').hidden"))
+    size = chromium.execute_async_script(
+        f"const done = arguments[0]; {banner}.picture().then((p) => done([p.width, p.height]));"
+    )
+    assert size == [320, 480]
+
+
+def test_the_package_has_types_and_no_sources_of_ours(site: str, tmp_path: Path) -> None:
+    from urllib.request import urlopen
+
+    with urlopen(f"{site}/drapery-designer.d.ts") as answer:
+        assert b"class DraperyDesigner" in answer.read()
