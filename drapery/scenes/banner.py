@@ -5,11 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.banner.packs import open_packs
 from drapery.cloth import Gravity, Wind
 from drapery.mesh import Array
-from drapery.render.scene import Model, Scene
-from drapery.render.views import View, frame_points
+from drapery.packs import open_packs
+from drapery.render import Model, Scene, View, frame_points
 from drapery.scenes.banners import (
     BannerBlock,
     flag_cloth,

@@ -5,15 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.banner.design import Banner
-from drapery.banner.packs import Packs
+from drapery.banner import Banner
 from drapery.cloth import Cloth, State, grid
 from drapery.mesh import Mesh
-from drapery.render.scene import Material, Model
-from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE, Placement, flag_origin, turn, wood
+from drapery.packs import Packs
+from drapery.render import Material, Model
+from drapery.style import FLAG_MAPPING, FLAG_SIZE, Shell, flag_material, make_shell, turn
+from drapery.style.block import SCALE, Placement, flag_origin, wood
 from drapery.style.board import moved
-from drapery.style.extrusion import Shell, make_shell
-from drapery.style.layers import flag_material, wood_material
+from drapery.style.layers import wood_material
 from drapery.style.tailoring import garment
 
 

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.banner.packs import open_packs
 from drapery.cloth import Gravity, Wind
 from drapery.errors import OptionError, counted
 from drapery.mesh import Array
-from drapery.render.scene import Scene
-from drapery.render.views import View, frame_points
+from drapery.packs import open_packs
+from drapery.render import Scene, View, frame_points
 from drapery.scenes.banners import (
     BannerBlock,
     flag_cloth,
@@ -29,7 +28,8 @@ from drapery.scenes.parameters import (
     wind_parameter,
 )
 from drapery.scenes.picture_grid import PictureGrid, panel_size
-from drapery.style.block import FLAG_SIZE, SCALE
+from drapery.style import FLAG_SIZE
+from drapery.style.block import SCALE
 from drapery.style.block_world import blocks, plateau
 from drapery.style.scenery import SKY, shadow
 from drapery.style.sheet import Sheet

@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from drapery.banner.dyes import DYE_NAMES
-from drapery.banner.packs import open_packs
+from drapery.banner import DYE_NAMES
 from drapery.cloth import State, Wind
-from drapery.garments.assembly import SewnCloth
-from drapery.render.scene import Scene
+from drapery.garments import SewnCloth
+from drapery.packs import open_packs
+from drapery.render import Scene
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.gait import LOOP, MAX_WALK, Gait
 from drapery.scenes.parameters import (

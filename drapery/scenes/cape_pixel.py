@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from PIL import Image, ImageDraw
 
-from drapery.banner.dyes import DYE_NAMES, DYES
+from drapery.banner import DYE_NAMES, DYES
 from drapery.errors import OptionError
 from drapery.mesh import Array
-from drapery.render.frame import Frame, Pixels
+from drapery.render import Frame, Pixels
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.dots import STEP, CapeTweaks, DotCloth, dot_grid, step
 from drapery.scenes.parameters import SceneParameters, parameter

@@ -5,17 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from drapery.banner.packs import open_packs
-from drapery.cloth import Cloth, State
+from drapery.cloth import Cloth, SolverVerlet, State
 from drapery.cloth.pins import PinName
-from drapery.cloth.solvers.verlet import SolverVerlet
-from drapery.garments.assembly import SewnCloth, tailor
-from drapery.garments.catalogue import find_garment
-from drapery.garments.model import GarmentPin
+from drapery.garments import GarmentPin, SewnCloth, find_garment, tailor
 from drapery.mesh import Array
-from drapery.render.scene import Scene
-from drapery.render.shadow import contact_shadow
-from drapery.render.views import View, frame_points
+from drapery.packs import open_packs
+from drapery.render import Scene, View, contact_shadow, frame_points
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion
 from drapery.scenes.parameters import (
@@ -25,8 +20,8 @@ from drapery.scenes.parameters import (
     parameter,
     thickness_in_metres,
 )
+from drapery.style import make_shell
 from drapery.style.block_world import blocks, plateau
-from drapery.style.extrusion import make_shell
 from drapery.style.scenery import SKY, post
 from drapery.style.tailoring import checked
 

@@ -2,14 +2,12 @@
 
 import numpy as np
 
-from drapery.banner.design import Banner
-from drapery.banner.packs import Packs
-from drapery.banner.sprites import flag_layers
+from drapery.banner import Banner, flag_layers
 from drapery.mesh import Mesh
-from drapery.render.scene import Material, Model, Scene, TextureLayer
-from drapery.render.views import frame_view
+from drapery.packs import Packs
+from drapery.render import Material, Model, Scene, TextureLayer, frame_view
 from drapery.settings import Settings, background_colour
-from drapery.style.block import FLAG_MAPPING, FLAG_SIZE
+from drapery.style import FLAG_MAPPING, FLAG_SIZE
 
 GAP = 0.6
 """Distance between two layers [m]."""

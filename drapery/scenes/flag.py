@@ -5,11 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from drapery.banner.packs import open_packs
 from drapery.cloth import State, Wind
-from drapery.garments.assembly import SewnCloth
-from drapery.render.camera import Camera
-from drapery.render.scene import Scene
+from drapery.garments import SewnCloth
+from drapery.packs import open_packs
+from drapery.render import Camera, Scene
 from drapery.scenes.banners import flag_materials
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import in_wind, motion

@@ -10,11 +10,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from drapery.cloth import Cloth, Gravity, Solver, SolverDesbrun, State, Wind
+from drapery.cloth import Cloth, Gravity, Solver, SolverDesbrun, SolverState, State, Wind
 from drapery.cloth.sheets import is_sheet
-from drapery.cloth.solvers.driver import SolverState
-from drapery.render.scene import Scene
-from drapery.render.views import View, frame_points
+from drapery.render import Scene, View, frame_points
 from drapery.scenes.banners import flag_cloth
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion
@@ -26,7 +24,7 @@ from drapery.scenes.parameters import (
 )
 from drapery.scenes.picture_grid import PictureGrid, panel_size
 from drapery.scenes.wires import DAYLIGHT, PAPER, paper, wired
-from drapery.style.block import FLAG_SIZE
+from drapery.style import FLAG_SIZE
 
 SIDE_ON = View(azimuth=30, elevation=6, fov=26)
 RIGHT, WRONG = paper((222, 234, 220)), paper((246, 222, 216))

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from drapery.render.scene import Scene
+from drapery.render import Scene
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.corners import CornersParameters, show
 from drapery.scenes.parameters import MAX_DRAG, parameter

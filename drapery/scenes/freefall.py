@@ -6,17 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from drapery.banner.packs import open_packs
-from drapery.cloth import State
-from drapery.cloth.collisions import Collisions
-from drapery.cloth.solvers.verlet import SolverVerlet
-from drapery.garments.assembly import SewnCloth
-from drapery.garments.catalogue import find_garment
-from drapery.garments.model import GridPiece
+from drapery.cloth import Collisions, SolverVerlet, State
+from drapery.garments import GridPiece, SewnCloth, find_garment
 from drapery.mesh import Array
-from drapery.render.scene import Scene, Texels
-from drapery.render.shadow import contact_shadow
-from drapery.render.views import View, frame_points
+from drapery.packs import open_packs
+from drapery.render import Scene, Texels, View, contact_shadow, frame_points
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.dressing import Dressed
 from drapery.scenes.moving import motion
@@ -27,8 +21,8 @@ from drapery.scenes.parameters import (
     parameter,
     thickness_in_metres,
 )
+from drapery.style import make_shell
 from drapery.style.block_world import blocks, plateau
-from drapery.style.extrusion import make_shell
 from drapery.style.scenery import SKY
 from drapery.style.tailoring import checked
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from drapery.cloth.colliders import Box, Collider
+from drapery.cloth import Box, Collider
 from drapery.elementary import sine_of_turns
 from drapery.garments.poses import BonePoses
 from drapery.mesh import Array

@@ -5,15 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.banner.packs import open_packs
-from drapery.cloth import Cloth, Gravity, State, Wind
-from drapery.cloth.colliders import Collider, Plane
-from drapery.cloth.collisions import Collisions
+from drapery.cloth import Cloth, Collider, Collisions, Gravity, Plane, State, Wind
 from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
-from drapery.render.camera import Camera
-from drapery.render.light import Light
-from drapery.render.scene import Scene
+from drapery.packs import open_packs
+from drapery.render import Camera, Light, Scene
 from drapery.scenes.banners import (
     BannerBlock,
     flag_cloth,

@@ -11,11 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from drapery.cloth import STRUCTURAL, Cloth, Gravity, State, grid, rest_state, simulate
-from drapery.cloth.solvers.pbd import SolverPBD
+from drapery.cloth import STRUCTURAL, Cloth, Gravity, SolverPBD, State, grid, rest_state, simulate
 from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
-from drapery.render.frame import Frame
+from drapery.render import Frame
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.parameters import SceneParameters, grid_parameter, parameter
 

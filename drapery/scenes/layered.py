@@ -15,7 +15,7 @@ from drapery.cloth.bending import NO_BENDING
 from drapery.cloth.colliders import TablePath
 from drapery.cloth.collisions import contact_stage
 from drapery.cloth.strain import MOST_STRETCH, strain_limit, strain_of
-from drapery.garments.assembly import SewnCloth
+from drapery.garments import SewnCloth
 from drapery.mesh import Array
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from drapery.cloth import (
     Cloth,
+    Collisions,
     Force,
     Gravity,
     MovingCloth,
@@ -17,7 +18,6 @@ from drapery.cloth import (
     Wind,
     rest_state,
 )
-from drapery.cloth.collisions import Collisions
 from drapery.mesh import Array
 from drapery.scenes.catalogue import Clip
 

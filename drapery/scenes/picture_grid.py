@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from drapery.render.frame import Frame, Pixels
-from drapery.render.scene import Scene
+from drapery.render import Frame, Pixels, Scene
 
 INK, PAPER = (255, 255, 255), (24, 26, 34)
 """Colours of the labels."""

@@ -6,15 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from drapery.banner.packs import open_packs
-from drapery.cloth import Drag, Force, Gravity, State, Wind
-from drapery.cloth.collisions import Collisions
-from drapery.cloth.solvers.verlet import SolverVerlet
+from drapery.cloth import Collisions, Drag, Force, Gravity, SolverVerlet, State, Wind
 from drapery.elementary import sine_of_turns
-from drapery.garments.catalogue import find_garment
+from drapery.garments import find_garment
 from drapery.mesh import Array
-from drapery.render.scene import Scene
-from drapery.render.views import View, frame_points
+from drapery.packs import open_packs
+from drapery.render import Scene, View, frame_points
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.dressing import Dressed
 from drapery.scenes.moving import motion

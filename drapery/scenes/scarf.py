@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from drapery.banner.dyes import DYES
-from drapery.banner.packs import Packs, open_packs
+from drapery.banner import DYES
 from drapery.banner.sprites import tint
 from drapery.cloth import State, Wind
-from drapery.garments.assembly import SewnCloth
-from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
+from drapery.garments import SewnCloth
+from drapery.packs import Packs, open_packs
+from drapery.render import Material, Model, Scene, Texels, TextureLayer
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.gait import LOOP, MAX_WALK, Gait
 from drapery.scenes.parameters import (
@@ -21,8 +21,8 @@ from drapery.scenes.parameters import (
     wind_parameter,
 )
 from drapery.scenes.stroll import cloths_of, walk_scenes, worn_states
+from drapery.style import make_shell
 from drapery.style.boxes import ModelBox, box_mesh, upright
-from drapery.style.extrusion import make_shell
 from drapery.style.figure import SKINS, TEXEL
 
 SQUARE = 4 * TEXEL

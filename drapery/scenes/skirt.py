@@ -5,13 +5,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from drapery.banner.dyes import DYE_NAMES, DYES
-from drapery.banner.packs import Packs, open_packs
+from drapery.banner import DYE_NAMES, DYES
 from drapery.banner.sprites import tint
 from drapery.cloth import State, Wind
 from drapery.errors import OptionError
-from drapery.garments.assembly import SewnCloth
-from drapery.render.scene import Material, Scene, Texels, TextureLayer
+from drapery.garments import SewnCloth
+from drapery.packs import Packs, open_packs
+from drapery.render import Material, Scene, Texels, TextureLayer
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.gait import LOOP, MAX_WALK, Gait
 from drapery.scenes.parameters import (
@@ -21,9 +21,8 @@ from drapery.scenes.parameters import (
     thickness_parameter,
 )
 from drapery.scenes.stroll import BEFORE, cloths_of, walk_scenes, worn_states
-from drapery.style.extrusion import make_shell
+from drapery.style import BoxMapping, make_shell
 from drapery.style.figure import SKINS
-from drapery.style.uv_mapping import BoxMapping
 
 SIDES = ("outside", "inside", "hem")
 SIDES_OF_CLOTH = BoxMapping(

@@ -6,20 +6,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.banner.design import Banner, Layer
-from drapery.banner.packs import open_packs
-from drapery.banner.patterns import PATTERN_NAMES
+from drapery.banner import PATTERN_NAMES, Banner, Layer
 from drapery.cloth import Gravity, Wind, grid, rest_state
 from drapery.mesh import Array
-from drapery.render.scene import Material, Scene
-from drapery.render.views import View, frame_points
+from drapery.packs import open_packs
+from drapery.render import Material, Scene, View, frame_points
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion
 from drapery.scenes.parameters import SceneParameters, parameter, seed_parameter, wind_parameter
-from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
-from drapery.style.crowds import cover_crowd
-from drapery.style.extrusion import make_shell
-from drapery.style.layers import flag_material
+from drapery.style import FLAG_MAPPING, FLAG_SIZE, cover_crowd, flag_material, make_shell
+from drapery.style.block import SCALE
 from drapery.style.scenery import SKY
 from drapery.style.tailoring import ClothModel
 

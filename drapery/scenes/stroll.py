@@ -5,14 +5,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from drapery.banner.packs import Packs, open_packs
-from drapery.cloth import State, Wind
-from drapery.cloth.collisions import Collisions
-from drapery.garments.assembly import SewnCloth, tailor
-from drapery.garments.catalogue import find_garment
-from drapery.render.camera import Camera
-from drapery.render.scene import Material, Model, Scene
-from drapery.render.views import View, frame_points
+from drapery.cloth import Collisions, State, Wind
+from drapery.garments import SewnCloth, find_garment, tailor
+from drapery.packs import Packs, open_packs
+from drapery.render import Camera, Material, Model, Scene, View, frame_points
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.gait import LOOP, Gait
 from drapery.scenes.moving import in_wind, motion

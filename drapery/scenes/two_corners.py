@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from drapery.render.scene import Scene
+from drapery.render import Scene
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.corners import CornersParameters, show
 

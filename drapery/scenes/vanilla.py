@@ -5,12 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drapery.banner.dyes import DYE_NAMES
-from drapery.banner.packs import Packs, open_packs
+from drapery.banner import DYE_NAMES
 from drapery.cloth import Gravity, Wind
 from drapery.mesh import Array
-from drapery.render.scene import Scene
-from drapery.render.views import View, frame_points
+from drapery.packs import Packs, open_packs
+from drapery.render import Scene, View, frame_points
 from drapery.scenes import cape
 from drapery.scenes.banners import (
     BannerBlock,

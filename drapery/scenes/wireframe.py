@@ -7,8 +7,7 @@ from itertools import chain
 import numpy as np
 
 from drapery.cloth import Cloth, Gravity, State, Wind
-from drapery.render.scene import Scene
-from drapery.render.views import View, frame_points
+from drapery.render import Scene, View, frame_points
 from drapery.scenes.banners import flag_cloth
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion, placed
@@ -20,7 +19,7 @@ from drapery.scenes.parameters import (
     wind_parameter,
 )
 from drapery.scenes.wires import DAYLIGHT, PAPER, paper, wired
-from drapery.style.block import FLAG_SIZE
+from drapery.style import FLAG_SIZE
 
 LOOP = 4.0
 SIDE_ON = View(azimuth=30, elevation=4, fov=26)

@@ -4,10 +4,16 @@ import numpy as np
 
 from drapery.cloth import Cloth
 from drapery.mesh import Array, Mesh, vertex_normals
-from drapery.render.camera import Camera
-from drapery.render.debug import edges_model, pins_model, springs_model
-from drapery.render.light import Light
-from drapery.render.scene import Material, Model, TextureLayer
+from drapery.render import (
+    Camera,
+    Light,
+    Material,
+    Model,
+    TextureLayer,
+    edges_model,
+    pins_model,
+    springs_model,
+)
 
 PAPER = (246, 246, 244, 255)
 DAYLIGHT = Light(((0.4, 0.9, 0.7), (-0.6, 0.3, 0.4)), 0.62, 0.4)
