@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from selenium.webdriver import ActionChains, Keys
 from studio_browser import PHONE, resize, wait_until
-from test_web_browser import served
+from web_sites import served
 
 from drapery import Banner
 from drapery.banner import PATTERN_NAMES, ItemDetails, write_give

@@ -48,7 +48,7 @@ def designer_module() -> str:
     """The text of the designer's `tables.js`."""
     codes = {version: _codes(form) for version, form in _CODED.items()}
     titles = {name: pattern.title for name, pattern in PATTERNS.items()}
-    tables = {
+    tables: dict[str, dict[str, Any]] = {
         "CODES": codes,
         "TITLES": titles,
         "LIMITS": {"loomLayers": LOOM_LAYERS},
