@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.cloth import Gravity, Wind
-from drapery.errors import OptionError, counted
+from drapery.errors import counted
 from drapery.mesh import Array
 from drapery.packs import open_packs
 from drapery.render import Scene, View, frame_points
@@ -57,8 +57,6 @@ class BlockyParameters(SceneParameters):
 
 def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     """Two or four pictures of the same motion."""
-    if not 1 <= parameters.steps <= 90:
-        raise OptionError(f"steps {parameters.steps} is out of range; use 1 to 90")
     packs = open_packs(())
     count = 2 if parameters.pixel_snap else 1
     size = panel_size(clip.size, 2, count)
