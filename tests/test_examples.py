@@ -23,7 +23,7 @@ PROGRAMS = {
     "own_pack": ("heart.png",),
     "own_cloth": ("sheet.png",),
     "own_collider": ("own_collider.png",),
-    "own_solver": ("own_solver.png",),
+    "own_physics": ("own_physics.png",),
     "own_style": ("comic.png",),
     "video": ("banner.mp4",),
     "compare_designs": ("difference.png",),
@@ -112,6 +112,13 @@ def test_a_study_writes_its_pictures(name: str, tmp_path: Path) -> None:
         with Image.open(path) as picture:
             texels = np.asarray(picture.convert("RGBA"))
         assert len(np.unique(texels.reshape(-1, 4), axis=0)) > 8, path.name
+
+
+def test_the_guide_shows_the_solver_of_the_example() -> None:
+    guide = (EXAMPLES.parent / "docs/guides/research.md").read_text("utf-8")
+    program = (EXAMPLES / "own_solver.py").read_text("utf-8")
+    shown = program[program.index("class SolverEuler") : program.index("def main")]
+    assert shown.strip() in guide
 
 
 def test_every_example_is_listed() -> None:

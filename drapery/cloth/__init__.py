@@ -50,6 +50,7 @@ if TYPE_CHECKING:
         swinging as swinging,
     )
     from drapery.cloth.collisions import Collisions as Collisions
+    from drapery.cloth.evaluated import accelerations as accelerations
     from drapery.cloth.fabric import FABRICS as FABRICS, Fabric as Fabric
     from drapery.cloth.forces import (
         Drag as Drag,

@@ -12,7 +12,7 @@ import numpy as np
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.forces import Force, Gravity, lower_forces
 from drapery.cloth.pins import PinPath
-from drapery.cloth.solvers.base import Solver, check_state, check_step
+from drapery.cloth.solvers.base import Solver, check_moved, check_state, check_step
 from drapery.cloth.solvers.desbrun import SolverDesbrun
 from drapery.cloth.solvers.driver import KernelSolver
 from drapery.cloth.state import State, rest_state
@@ -84,6 +84,8 @@ class MovingCloth:
             state, solver_state = self.solver.step(
                 self.cloth, before, solver_state, forces, self.dt, steps=each, pins=pins, **meets
             )
+            if not isinstance(self.solver, KernelSolver):
+                check_moved(self.cloth, self.solver, state)
             state = state if self.resolve is None else self.resolve(before, state)
         return replace(self, state=state, solver_state=solver_state)
 

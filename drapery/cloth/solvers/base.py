@@ -69,6 +69,20 @@ def check_state(cloth: Cloth, state: State) -> None:
             raise OptionError(f"state {name} hold NaN or infinity; give finite numbers")
 
 
+def check_moved(cloth: Cloth, solver: Solver, state: State) -> None:
+    """Raises OptionError unless a solver of somebody else gave a finite state of the cloth."""
+    places = getattr(state, "positions", None)
+    if isinstance(places, np.ndarray) and places.dtype.kind == "f" and not all_finite(places):
+        raise OptionError(
+            f"positions became infinite before {state.time:.4g} s; "
+            "use a smaller dt, weaker forces or another solver"
+        )
+    try:
+        check_state(cloth, state)
+    except OptionError as error:
+        raise OptionError(f"solver {type(solver).__name__} gave a wrong state: {error}") from None
+
+
 def all_finite(values: Array) -> bool:
     """Whether there is no NaN or infinity."""
     # A sum is finite only if all values are, and is much faster than a test of each value.
