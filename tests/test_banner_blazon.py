@@ -4,13 +4,15 @@ import random
 import shlex
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import Run
 from cost import limited_cost
 
-from drapery import Banner, Layer
+from drapery import Banner, Layer, draw_face
 from drapery.banner import DYE_NAMES, PATTERN_NAMES, alt_text, recognise, write_banner
 from drapery.banner.blazon import parse_blazon, write_blazon
+from drapery.banner.blazon.plain_words import WORDS
 from drapery.banner.blazon.terms import MAX_BLAZON
 from drapery.errors import DesignError
 
@@ -226,3 +228,35 @@ def test_pictures_on_pages_have_the_words_of_their_banner() -> None:
     assert alt_text(Banner.parse("blue stripe_downright:yellow")) == "Banner: Azure, a bend Or"
     assert alt_text(Banner.parse("shield red")) == "On a shield Gules"
     assert alt_text(Banner.parse("light_gray cross:light_gray")).startswith("Banner: ")
+
+
+@pytest.mark.parametrize(
+    ("design", "words"),
+    [
+        ("red straight_cross:white", "A red banner with a white cross"),
+        ("orange", "An orange banner"),
+        ("shield light_blue bricks:orange", "A light blue shield with orange bricks"),
+        (
+            "white stripe_top:red creeper:lime border:black",
+            "A white banner with a red stripe along the top, a lime creeper and a black border",
+        ),
+    ],
+)
+def test_a_text_in_plain_english_says_what_is_seen(design: str, words: str) -> None:
+    assert alt_text(Banner.parse(design), plain=True) == words
+
+
+def test_plain_words_know_every_pattern_and_its_place() -> None:
+    assert WORDS.keys() == set(PATTERN_NAMES)
+    white = draw_face(Banner("white"), scale=1).pixels.astype(int)
+    for pattern, words in WORDS.items():
+        face = draw_face(Banner("white", (Layer(pattern, "black"),)), scale=1).pixels.astype(int)
+        dark = np.abs(face - white).sum(axis=-1)
+        across = (dark.sum(axis=0) * np.linspace(0, 1, dark.shape[1])).sum() / dark.sum()
+        down = (dark.sum(axis=1) * np.linspace(0, 1, dark.shape[0])).sum() / dark.sum()
+        sides = {"left": across < 0.4, "right": across > 0.6}
+        sides |= {"upper": down < 0.4, "lower": down > 0.6, "top": down < 0.4, "bottom": down > 0.6}
+        if "slanting" in words:
+            continue  # whose words say where it begins
+        for word, holds in sides.items():
+            assert (word in words.replace("upright", "").split()) <= holds, (pattern, word)

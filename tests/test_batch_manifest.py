@@ -157,6 +157,19 @@ e,red,4,48x48,,,
 """
 
 
+def test_semicolons_between_columns_are_named(tmp_path: Path) -> None:
+    path = write(tmp_path / "m.csv", "name;design\na;red creeper:lime\n")
+    with pytest.raises(ManifestError) as caught:
+        read_manifest(path)
+    assert "separated by semicolons; separate them by commas" in str(caught.value)
+
+
+def test_commands_with_quotes_are_cells_in_quotes(tmp_path: Path) -> None:
+    give = '/give @p white_banner[banner_patterns=[{pattern:""creeper"",color:""lime""}]]'
+    (request,) = read_manifest(write(tmp_path / "m.csv", f'name,design\na,"{give}"\n'))
+    assert request.banner == Banner.parse("white creeper:lime")
+
+
 def test_all_faults_are_listed_with_their_lines(tmp_path: Path, drapery: Run) -> None:
     path = write(tmp_path / "m.csv", BAD)
     with pytest.raises(ManifestError) as caught:

@@ -89,6 +89,10 @@ def _csv(path: Path) -> Rows:
             place, line = f"line {line}", skipped + reader.line_num + 1
             if not names:
                 names = [cell.strip() for cell in cells]
+                if len(names) == 1 and ";" in names[0]:
+                    message = "columns are separated by semicolons; separate them by commas"
+                    yield ManifestFault(place, message)
+                    return
             elif len(cells) > len(names):
                 message = f"{len(cells)} cells for {counted(len(names), 'column')}; quote commas"
                 yield ManifestFault(place, message)

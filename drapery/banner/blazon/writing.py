@@ -2,6 +2,7 @@
 
 from itertools import groupby
 
+from drapery.banner.blazon.plain_words import plain_text
 from drapery.banner.blazon.vocabulary import DYE_WORDS, NAMES
 from drapery.banner.design import Banner, Layer
 
@@ -30,8 +31,13 @@ def write_blazon(banner: Banner) -> str:
     return f"Arms: {words}" if named_alike and banner.layers else words
 
 
-def alt_text(banner: Banner) -> str:
-    """A banner in words, for people who cannot see its picture: `Banner: Azure, a bend Or`."""
+def alt_text(banner: Banner, *, plain: bool = False) -> str:
+    """A banner in words, for people who cannot see its picture: `Banner: Azure, a bend Or`.
+
+    plain: in everyday English, `A red banner with a white cross`; `Banner.parse` does not read it.
+    """
+    if plain:
+        return plain_text(banner)
     # The words of a shield begin with `On a shield`.
     words = write_blazon(banner).removeprefix("Arms: ")
     return words if banner.kind == "shield" else f"Banner: {words}"
