@@ -1,8 +1,10 @@
-"""The formats of picture, animation, 3-D and page files: one table that every part reads."""
+"""The formats of picture, animation, 3-D and page files, and where loops are posted: tables that
+every part reads."""
 
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Literal, TypeAlias
 
 from drapery.errors import OptionError
@@ -238,3 +240,50 @@ def _by_length(*kinds: Kind) -> tuple[tuple[str, FileFormat], ...]:
     """The endings of files of some kinds and their formats, the longest first."""
     found = [(ending, each) for each in formats_of(*kinds) for ending in each.endings]
     return tuple(sorted(found, key=lambda one: -len(one[0])))
+
+
+@dataclass(frozen=True)
+class Destination:
+    """Where loops are posted, and what it takes.
+
+    max_bytes: the largest file. size: the largest picture there, width and height [pixels].
+    endings: of the files that it plays. max_samples: the most pixels of all frames together.
+    about: where the limits come from.
+    """
+
+    max_bytes: int
+    size: tuple[int, int]
+    endings: tuple[str, ...]
+    max_samples: int
+    about: str
+
+
+DESTINATIONS = MappingProxyType(
+    {
+        "discord-emoji": Destination(
+            256_000, (128, 128), (".gif", ".webp"), 1 << 40, "an emoji has less than 256 kB"
+        ),
+        "discord": Destination(
+            8_000_000,
+            (720, 720),
+            (".gif", ".webp", ".mp4", ".webm"),
+            1 << 40,
+            "uploads of every account may have 8 MB",
+        ),
+        "wiki": Destination(
+            4_000_000,
+            (640, 640),
+            (".gif",),
+            12_500_000,
+            "MediaWiki moves no thumbnail of more than 12.5 million pixels, $wgMaxAnimatedGifArea",
+        ),
+        "github": Destination(
+            10_000_000,
+            (960, 960),
+            (".gif", ".webp", ".apng"),
+            1 << 40,
+            "pictures in texts may have 10 MB",
+        ),
+    }
+)
+"""Where loops are posted, by name."""

@@ -79,6 +79,10 @@ if TYPE_CHECKING:
         save_animation as save_animation,
         save_frame as save_frame,
     )
+    from drapery.render.encode.fitting import (
+        FittedLoop as FittedLoop,
+        save_for as save_for,
+    )
     from drapery.render.encode.output import (
         check_writable as check_writable,
         make_folder as make_folder,

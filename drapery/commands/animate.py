@@ -1,12 +1,17 @@
 """`drapery animate`: a banner waving in the wind, as a seamless loop."""
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.notices import compile_notice, progress
-from drapery.file_formats import endings_of
+from drapery.commands.notices import compile_notice, progress, say
+from drapery.errors import OptionError
+from drapery.file_formats import DESTINATIONS, endings_of
+
+if TYPE_CHECKING:
+    from drapery import Banner
+    from drapery.settings import Settings
 
 OutOption = Annotated[
     str,
@@ -19,9 +24,22 @@ OutOption = Annotated[
 ]
 
 
+ForOption = Annotated[
+    str | None,
+    typer.Option(
+        "--for",
+        metavar="DESTINATION",
+        help="Where it is posted: size, frames/s and quality are chosen so that it fits, unless"
+        f" they are given. One of: {', '.join(DESTINATIONS)}.",
+    ),
+]
+
+
 @o.pictured("loop")
 def run(
+    ctx: typer.Context,
     out: OutOption,
+    to: ForOption = None,
     seconds: o.SecondsOption = 4.0,
     fps: o.FpsOption = 20.0,
     matte: Annotated[
@@ -39,6 +57,12 @@ def run(
     settings = o.settings_of(words)
     behind = None if matte is None else background_colour(matte)[:3]
     check_quality(check_target(out, "loop"), quality)
+    if to is not None:
+        if matte is not None:
+            raise OptionError("matte does nothing with --for; leave one of them out")
+        rate = fps if o.is_given(ctx, "fps") else None
+        _save_for(to, o.design_of(words), settings, out, seconds, rate, quality)
+        return
     with compile_notice():
         design = o.design_of(words)
         with progress("moving the cloth") as moved:
@@ -48,3 +72,38 @@ def run(
             save_animation(
                 drawn, fps, out, matte=behind, quality=quality, total=total, progress=tick
             )
+
+
+def _save_for(
+    to: str,
+    design: "Banner | None",
+    settings: "Settings",
+    out: str,
+    seconds: float,
+    fps: float | None,
+    quality: int | None,
+) -> None:
+    """Write the best loop that a to takes, and say what was chosen."""
+    from drapery import iter_frames
+    from drapery.render import save_for
+
+    size = settings.size if "size" in settings.given else None
+    with compile_notice():
+        fitted = save_for(
+            to,
+            lambda wide, rate: iter_frames(
+                design, settings.changed(size=wide), seconds=seconds, fps=rate
+            ),
+            out,
+            seconds=seconds,
+            size=size,
+            shape=settings.size,
+            fps=fps,
+            quality=quality,
+        )
+    (width, height), quality = fitted.size, fitted.quality
+    how = "" if quality is None else f" quality {quality},"
+    say(
+        f"for {to}: {width}x{height} pixels, {fitted.fps:g} frames/s,{how}"
+        f" {fitted.length / 1000:.0f} kB"
+    )
