@@ -234,6 +234,55 @@ def test_a_picture_has_the_bits_of_the_renderer(
     assert found == [[320, 480, [*sha256(each.tobytes()).digest()]] for each in drawn]
 
 
+MEMORY = """
+const instantiate = WebAssembly.instantiate;
+window.memories = [];
+WebAssembly.instantiate = async (...words) => {
+  const instance = await instantiate(...words);
+  window.memories.push(instance.exports.memory);
+  return instance;
+};
+"""
+LATE = """
+const [done] = arguments;
+const main = document.querySelector("main");
+for (let n = 0; n < 200; n++) {
+  const element = document.createElement("drapery-banner");
+  main.append(element);
+  element.remove();
+}
+const last = document.createElement("drapery-banner");
+last.addEventListener("drapery-ready", () => done(memories.map(({ buffer }) => buffer.byteLength)));
+main.append(last);
+"""
+
+
+def test_elements_that_are_gone_before_they_are_ready_take_no_memory(
+    chromium: Any, site: str
+) -> None:
+    open_site(chromium, f"{site}/many.html", script=MEMORY)
+    before = chromium.execute_script("return memories.map(({ buffer }) => buffer.byteLength)")
+    after = chromium.execute_async_script(LATE)
+    assert len(before) == len(after) == 1 and after[0] - before[0] < 4 << 20
+
+
+def test_properties_say_what_attributes_say(chromium: Any, site: str) -> None:
+    open_site(chromium, f"{site}/many.html", moves=False)
+    chromium.execute_script(f"{ELEMENT}.design = 'blue'; {ELEMENT}.wind = 7;")
+    assert name_of(chromium) == "blue banner"
+    found = "return [element.design, element.wind, element.direction, element.getAttribute('wind')]"
+    assert chromium.execute_script(f"const element = {ELEMENT}; {found}") == [
+        "blue",
+        "7",
+        None,
+        "7",
+    ]
+    chromium.execute_script(f"{ELEMENT}.design = null;")
+    assert name_of(chromium) == "white banner"
+    early = "const e = document.createElement('drapery-cape'); e.pose = 'run'; return e.pose"
+    assert chromium.execute_script(early) == "run"
+
+
 def test_all_elements_of_a_page_share_a_context_and_rest_out_of_sight(
     chromium: Any, site: str
 ) -> None:

@@ -1,5 +1,7 @@
 """The designer reads texts and writes the commands of all versions as Python does."""
 
+import json
+import re
 from collections.abc import Iterator
 from itertools import cycle
 
@@ -65,6 +67,17 @@ def written(banner: Banner, details: ItemDetails) -> list[str | None]:
 
 def test_the_tables_are_those_of_python() -> None:
     assert tables.DESIGNER_PATH.read_text(encoding="utf-8") == tables.designer_module()
+
+
+def test_all_languages_have_all_texts_with_their_places() -> None:
+    script = (tables.DESIGNER_PATH.with_name("texts.js")).read_text(encoding="utf-8")
+    texts = json.loads(script[script.index("{\n") : script.rindex(";")])
+    assert len(tables.languages()) == 9
+    for language in tables.languages().values():
+        assert language["texts"].keys() == texts.keys()
+        for key, text in language["texts"].items():
+            places = re.findall(r"{\w+}", text)
+            assert sorted(places) == sorted(re.findall(r"{\w+}", texts[key])), (key, text)
 
 
 def test_the_designer_reads_and_writes_what_python_does() -> None:

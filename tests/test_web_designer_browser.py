@@ -202,6 +202,24 @@ def test_all_patterns_are_on_one_screen_and_no_page_is_too_wide(chromium: Any, s
         assert size != PHONE or dyes <= PHONE[1]  # in reach
 
 
+def test_a_language_is_chosen_and_kept(chromium: Any, site: str) -> None:
+    open_designer(chromium, site)
+    title = f"{ROOT}.querySelector('h1').textContent"
+    assert run(chromium, title) == "Banner designer"
+    chromium.execute_script(
+        f"const menu = {ROOT}.querySelector('.language'); menu.value = 'de';"
+        "menu.dispatchEvent(new Event('change'));"
+    )
+    wait_until(lambda: run(chromium, title) == "Banner-Designer")
+    assert run(chromium, f"{ROOT}.querySelector('[data-dye]').title") == "Weiß"
+    chromium.get("about:blank")
+    chromium.get(site)
+    wait_until(
+        lambda: run(chromium, f"{ROOT}?.querySelector('h1')?.textContent === 'Banner-Designer'")
+    )
+    chromium.execute_script("localStorage.clear()")
+
+
 def test_controls_have_names(chromium: Any, site: str) -> None:
     open_designer(chromium, site)
     nameless = f"""[...{ROOT}.querySelectorAll('button, input, select, textarea')].filter((e) =>

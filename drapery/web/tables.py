@@ -7,6 +7,7 @@ Python.
 import json
 import re
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -25,9 +26,17 @@ from drapery.web.page import PLACEMENTS, POSES, WORN
 
 PATH = Path(__file__).parent / "component" / "tables.js"
 DESIGNER_PATH = Path(__file__).parent / "designer" / "tables.js"
+LANGUAGES_PATH = DESIGNER_PATH.with_name("languages.json")
 
 _CODED = {"1.13": "give-legacy", "1.8": "give-1.12", "bedrock": "bedrock"}
 """The versions that name patterns by codes, and the forms of their texts."""
+
+
+@cache
+def languages() -> dict[str, Any]:
+    """The designer's languages by code: their own name, that of the game, and their texts."""
+    found: dict[str, Any] = json.loads(LANGUAGES_PATH.read_text(encoding="utf-8"))
+    return found
 
 
 def tables_module() -> str:
@@ -52,6 +61,7 @@ def designer_module() -> str:
         "CODES": codes,
         "TITLES": titles,
         "LIMITS": {"loomLayers": LOOM_LAYERS},
+        "LANGUAGES": {code: each["language"] for code, each in languages().items()},
         "STYLES": {"sheet": _styles(DESIGNER_PATH.with_name("designer.css"))},
     }
     return _module(("drapery.banner", "and designer.css"), tables)

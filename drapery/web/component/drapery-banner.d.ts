@@ -26,6 +26,12 @@ export function readDesign(text: string): Design;
 export class DraperyBanner extends HTMLElement {
   /** Whether its cloth is still. */
   paused: boolean;
+  /** The attributes as properties; null where there is none, and removes one. */
+  design: string | null;
+  kind: string | null;
+  wind: string | number | null;
+  direction: string | number | null;
+  alt: string | null;
   /** A PNG of what is seen now. */
   snapshot(): Promise<Blob>;
   /** The pixels that `drapery render` draws of the design with the options of the package. */
@@ -38,7 +44,11 @@ export class DraperyBanner extends HTMLElement {
  * Attributes: `skin` and `cape`, addresses of PNG files; `pose` ("walk", "stand", "run" or
  * "sneak"); `kind` ("cape" or "elytra"); and `wind`, `direction`, `paused` and `alt` as above.
  */
-export class DraperyPlayer extends DraperyBanner {}
+export class DraperyPlayer extends DraperyBanner {
+  skin: string | null;
+  cape: string | null;
+  pose: string | null;
+}
 
 /** `<drapery-cape skin="skin.png" cape="cape.png" pose="run">`: a player with a cape. */
 export class DraperyCape extends DraperyPlayer {}

@@ -46,6 +46,7 @@ export class DraperyBanner extends HTMLElement {
   }
 
   connectedCallback() {
+    takeOver(this, this.constructor.observedAttributes);
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) this.paused = true;
     this.#observers.forEach((each) => each.observe(this));
     this.#start();
@@ -95,9 +96,10 @@ export class DraperyBanner extends HTMLElement {
     const start = ++this.#starts;
     try {
       const [name, textures] = await this.source();
-      const player = await Player.open(this.#canvas, `${name}.bin`, this.getAttribute("design"), textures);
-      if (start === this.#starts) this.#show(player);
-      else player.end();
+      const isWanted = () => start === this.#starts;
+      const player = await Player.open(this.#canvas, `${name}.bin`, this.getAttribute("design"), textures, isWanted);
+      if (isWanted()) this.#show(player);
+      else player?.end();
     } catch (error) {
       if (start === this.#starts) this.#tell(error);
     }
@@ -209,6 +211,30 @@ export class DraperyCape extends DraperyPlayer {}
 export class DraperyElytra extends DraperyPlayer {
   static kind = "elytra";
 }
+
+// Properties that a page has set before this module was there.
+export function takeOver(element, names) {
+  for (const name of names.filter((each) => Object.hasOwn(element, each))) {
+    const value = element[name];
+    delete element[name];
+    element[name] = value;
+  }
+}
+
+// Properties say what attributes say; null removes one.
+for (const element of [DraperyBanner, DraperyPlayer])
+  for (const name of element.observedAttributes.filter((each) => each !== "paused"))
+    Object.defineProperty(element.prototype, name, {
+      configurable: true,
+      enumerable: true,
+      get() {
+        return this.getAttribute(name);
+      },
+      set(value) {
+        if (value === null || value === undefined) this.removeAttribute(name);
+        else this.setAttribute(name, value);
+      },
+    });
 
 const ELEMENTS = { banner: DraperyBanner, player: DraperyPlayer, cape: DraperyCape, elytra: DraperyElytra };
 for (const [name, element] of Object.entries(ELEMENTS)) {

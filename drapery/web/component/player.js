@@ -16,10 +16,12 @@ const SETTLED = 3; // time before cloth is shown that does not move [s]
 
 export class Player extends View {
   // canvas: its picture goes there. name: of a file that `drapery.web.scene_file` wrote. text: the
-  // design, or null. textures: pixels in place of the scene's own, by name.
-  static async open(canvas, name, text, textures) {
+  // design, or null. textures: pixels in place of the scene's own, by name. isWanted: asked when the
+  // files are there; without it there is no player, and no memory is taken.
+  static async open(canvas, name, text, textures, isWanted) {
     sharedContext();
     const [scene, module] = await Promise.all([name, MODULE].map(fileBytes));
+    if (!isWanted()) return null;
     const { header, arrays } = retextured(unpack(scene.buffer), textures);
     const player = new Player(canvas, header, arrays);
     player.setDesign(text);

@@ -2,7 +2,7 @@
 
 import { numberOf } from "../component/attributes.js";
 import { DesignError } from "../component/design.js";
-import { DraperyBanner } from "../component/element.js";
+import { DraperyBanner, takeOver } from "../component/element.js";
 import { fileBytes } from "../component/shared.js";
 import { TABLES } from "../component/tables.js";
 import { FormError, VERSIONS, notKept, plainText, writeCommand } from "./commands.js";
@@ -14,21 +14,37 @@ import {
   MOTION, History, changedLayer, duplicatedLayer, movedLayer, shownOf, withLayer, withoutLayer, workOf, writeHash, writeShorthand,
 } from "./model.js";
 import { readHash, readPasted } from "./pasted.js";
-import { LIMITS, STYLES, TITLES } from "./tables.js";
+import { LANGUAGES, LIMITS, STYLES, TITLES } from "./tables.js";
 import { TEXTS } from "./texts.js";
 
 const START = "yellow gradient:red gradient_up:magenta flower:white circle:orange curly_border:red";
 const BREEZE = { ...MOTION, wind: 6 }; // in which an editor starts
 const NARROW = 704; // a page so narrow hides the motion until it is wanted [px]
 const STORED = "drapery-designer"; // the key of the history in the browser's storage, before the page's path
+const LANGUAGE = ":language";
+const TOLD = 6000; // how long a line of news stands [ms]
 const CHAT = 256; // the longest line of the game's chat [characters]
 
 /** @typedef {import("./model.js").Work} Work */
 /** @typedef {import("./model.js").Shown} Shown */
 /** @typedef {import("./model.js").Motion} Motion */
 
+const ENGLISH = { code: "en", texts: TEXTS, dyes: {}, patterns: {} };
+
 /** @param {string} text */
 const capital = (text) => text[0].toUpperCase() + text.slice(1).replaceAll("_", " ");
+
+/** What the browser keeps; null where it keeps nothing.
+ * @template T @param {() => T} use @returns {T | null} */
+function kept(use) {
+  try {
+    return use();
+  } catch {
+    return null;
+  }
+}
+
+const readJson = async (/** @type {string} */ name) => JSON.parse(new TextDecoder().decode(await fileBytes(name)));
 
 export class DraperyDesigner extends HTMLElement {
   static observedAttributes = ["design", "wind"];
@@ -44,7 +60,13 @@ export class DraperyDesigner extends HTMLElement {
   /** @type {Record<string, any>} */
   #ui = {};
   #built = false;
+  /** @type {Record<string, string>} */
+  #words = {}; // by which patterns are found
+  /** @type {{ code: string, texts: Record<string, string>, dyes: Record<string, string>, patterns: Record<string, string> }} */
+  #language = ENGLISH;
   #frame = 0;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #telling = undefined;
 
   constructor() {
     super();
@@ -124,42 +146,42 @@ export class DraperyDesigner extends HTMLElement {
 
   async #start() {
     this.#built = true;
-    const [words, faces] = await Promise.all([this.#words(), Faces.open("standing.bin").catch(() => null)]);
+    const [words, faces] = await Promise.all([readJson("words.bin").catch(() => ({})), Faces.open("standing.bin").catch(() => null), this.#speak(this.#wanted())]);
+    this.#words = words;
     this.#faces = faces;
     const own = this.getAttribute("design");
     this.#try(() => (this.#history = new History(readPasted(own ?? START, BREEZE).work)));
-    const kept = History.read(this.#stored());
-    if (kept && own === null) this.#history = kept;
+    const before = History.read(kept(() => sessionStorage.getItem(STORED + location.pathname)));
+    if (before && own === null) this.#history = before;
     this.#try(() => (this.#history.work = this.#moved({ wind: numberOf("wind", this.getAttribute("wind")) ?? this.#history.work.motion.wind })));
-    this.#build(words);
+    this.#build();
     if (this.#hash) this.#follow();
+    this.#try(() => takeOver(this, ["design"]));
     this.#show();
     this.dispatchEvent(new CustomEvent("drapery-designer-ready", { bubbles: true }));
   }
 
-  // The words by which patterns are found; without their file, only titles.
-  async #words() {
+  // The code of the language: that of the attribute, chosen before, or one that the user reads.
+  #wanted() {
+    const chosen = this.getAttribute("language") ?? kept(() => localStorage.getItem(STORED + LANGUAGE));
+    return chosen ?? navigator.languages.map((each) => each.slice(0, 2)).find((code) => code === "en" || Object.hasOwn(LANGUAGES, code)) ?? "en";
+  }
+
+  // Take the texts of a language; English stays where there is none.
+  async #speak(/** @type {string} */ code) {
     try {
-      return JSON.parse(new TextDecoder().decode(await fileBytes("words.bin")));
+      this.#language = Object.hasOwn(LANGUAGES, code) ? { code, ...(await readJson(`${code}.bin`)) } : ENGLISH;
     } catch {
-      return {};
+      this.#language = ENGLISH;
     }
   }
 
-  #stored() {
-    try {
-      return sessionStorage.getItem(STORED + location.pathname);
-    } catch {
-      return null; // the browser keeps nothing
-    }
-  }
-
-  #store() {
-    try {
-      sessionStorage.setItem(STORED + location.pathname, this.#history.write());
-    } catch {
-      // the browser keeps nothing
-    }
+  async #changeLanguage(/** @type {string} */ code) {
+    kept(() => localStorage.setItem(STORED + LANGUAGE, code));
+    await this.#speak(code);
+    this.#build();
+    this.#show();
+    this.#ui.language.focus();
   }
 
   get #hash() {
@@ -182,7 +204,7 @@ export class DraperyDesigner extends HTMLElement {
   }
 
   #announce() {
-    this.#store();
+    kept(() => sessionStorage.setItem(STORED + location.pathname, this.#history.write()));
     const forms = this.getDesign();
     if (this.hasAttribute("linked")) history.replaceState(history.state, "", `#${forms.hash}`);
     this.dispatchEvent(new CustomEvent("drapery-change", { detail: forms, bubbles: true }));
@@ -201,7 +223,7 @@ export class DraperyDesigner extends HTMLElement {
     if (typeof this.#chosen === "number") this.#change(changedLayer(work, this.#chosen, { pattern }));
     else if (work.layers.length >= TABLES.maxLayers) this.#tell(this.#say("tooMany", { most: TABLES.maxLayers }));
     else {
-      this.#tell(this.#say("layerIn", { pattern: this.#patternTitle(pattern), dye: capital(this.#dye) }));
+      this.#tell(this.#say("layerIn", { pattern: this.#patternTitle(pattern), dye: this.#dyeTitle(this.#dye) }));
       this.#change(withLayer(work, { pattern, dye: this.#dye }));
     }
   }
@@ -249,30 +271,40 @@ export class DraperyDesigner extends HTMLElement {
 
   /** @param {string} key @param {Record<string, any>} [values] @returns {string} */
   #say(key, values = {}) {
-    const text = /** @type {Record<string, string>} */ (TEXTS)[key];
+    const text = this.#language.texts[key] ?? /** @type {Record<string, string>} */ (TEXTS)[key];
     return text.replace(/\{(\w+)\}/g, (_, name) => String(values[name] ?? ""));
   }
 
-  #patternTitle(/** @type {string} */ pattern) {
-    const heraldic = TITLES[pattern];
-    const plain = capital(pattern);
-    return heraldic && heraldic !== plain ? `${plain} / ${heraldic}` : plain;
-  }
+  // Arrow functions, because others call them too.
+  #dyeTitle = (/** @type {string} */ dye) => this.#language.dyes[dye] ?? capital(dye);
+
+  // The name in a word or two.
+  #caption = (/** @type {string} */ pattern) => this.#language.patterns[pattern] ?? capital(pattern);
+
+  // In English both the plain and the heraldic name.
+  #patternTitle = (/** @type {string} */ pattern) => {
+    const [plain, heraldic] = [this.#caption(pattern), TITLES[pattern]];
+    return this.#language === ENGLISH && heraldic && heraldic !== plain ? `${plain} / ${heraldic}` : plain;
+  };
 
   #tell(/** @type {string} */ text) {
-    if (this.#ui.status) this.#ui.status.textContent = text;
+    const { status } = this.#ui;
+    if (!status) return;
+    status.textContent = text;
+    clearTimeout(this.#telling);
+    this.#telling = setTimeout(() => (status.textContent = ""), TOLD);
   }
 
   // The page
 
-  #build(/** @type {Record<string, string>} */ words) {
+  #build() {
     const say = this.#say.bind(this);
     const names = this.#faces?.patterns.filter((/** @type {string} */ name) => Object.hasOwn(TITLES, name)) ?? [];
-    const patterns = names.map((/** @type {string} */ name) => ({ name, title: this.#patternTitle(name), caption: capital(name), words: words[name] ?? name }));
-    const titles = { dye: capital, pattern: (/** @type {string} */ name) => this.#patternTitle(name) };
+    const patterns = names.map((/** @type {string} */ name) => ({ name, title: this.#patternTitle(name), caption: this.#caption(name), words: this.#words[name] ?? name }));
+    const titles = { dye: this.#dyeTitle, pattern: this.#patternTitle };
     const ui = {
       status: make("p", { class: "status", role: "status" }),
-      dyes: dyeButtons((dye) => this.#dyeIt(dye), { label: say("dyes"), titleOf: capital }),
+      dyes: dyeButtons((dye) => this.#dyeIt(dye), { label: say("dyes"), titleOf: this.#dyeTitle }),
       grid: patterns.length ? new PatternGrid(patterns, (name) => this.#lay(name), { label: say("patterns"), find: say("find"), nothing: say("noPatterns") }) : null,
       layers: new LayerList(this.#acts, say, titles),
       undo: iconButton("undo", say("undo"), () => this.#go("undo"), { "aria-keyshortcuts": "Control+Z" }),
@@ -280,6 +312,8 @@ export class DraperyDesigner extends HTMLElement {
       kind: segments(`${say("banner")} / ${say("shield")}`, { banner: say("banner"), shield: say("shield") }, (kind) => this.#change({ ...this.#history.work, kind })),
       heading: make("h2", { class: "mode" }),
       hint: make("span", { class: "hint" }),
+      language: make("select", { class: "language", "aria-label": say("language"), onchange: () => this.#changeLanguage(ui.language.value) },
+        ...Object.entries({ en: "English", ...LANGUAGES }).map(([value, name]) => make("option", { value, selected: value === this.#language.code }, name))),
       done: make("button", { type: "button", class: "quiet", onclick: () => this.#acts.select(null) }, say("add")),
     };
     this.#ui = ui;
@@ -287,12 +321,12 @@ export class DraperyDesigner extends HTMLElement {
       make("h1", {}, say("title")), ui.status,
       make("div", { class: "tools", role: "toolbar", "aria-label": say("title") }, ui.undo, ui.redo,
         iconButton("dice", say("random"), () => this.#random()),
-        iconButton("clear", say("clear"), () => this.#change({ ...this.#history.work, layers: [] })), ui.kind.group));
+        iconButton("clear", say("clear"), () => this.#change({ ...this.#history.work, layers: [] })), ui.kind.group, ui.language));
     const dyes = make("section", { class: "dyes", "aria-label": say("dyes") },
       make("div", { class: "mode-line" }, ui.heading, ui.hint, ui.done), ui.dyes.group);
     const made = ui.grid ? make("section", { class: "make", "aria-label": say("patterns") },
       make("div", { class: "search" }, make("h2", {}, say("patterns")), ui.grid.field, ui.grid.count), ui.grid.nothing, ui.grid.grid) : null;
-    const app = make("div", { class: "app", onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event) },
+    const app = make("div", { class: "app", lang: this.#language.code, onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event) },
       bar, this.#stage(), dyes, made, this.#side());
     /** @type {ShadowRoot} */ (this.shadowRoot).replaceChildren(app);
   }
@@ -402,7 +436,7 @@ export class DraperyDesigner extends HTMLElement {
     const at = this.#chosen;
     const layer = typeof at === "number" ? work.layers[at] : null;
     const dye = layer?.dye ?? (at === "field" ? work.base : this.#dye);
-    ui.heading.textContent = layer ? this.#say("change", { number: Number(at) + 1, pattern: capital(layer.pattern) }) : this.#say(at === "field" ? "field" : "add");
+    ui.heading.textContent = layer ? this.#say("change", { number: Number(at) + 1, pattern: this.#caption(layer.pattern) }) : this.#say(at === "field" ? "field" : "add");
     ui.hint.textContent = this.#say(layer ? "changeHint" : at === "field" ? "fieldHint" : "addHint");
     ui.done.hidden = at === null;
     ui.dyes.show(dye);

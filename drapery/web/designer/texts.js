@@ -1,5 +1,5 @@
-// All texts of the designer, by key; `{name}` is a place to fill in. `drapery.web.designer_page` reads
-// them as JSON and writes those of other languages.
+// All texts of the designer, by key; `{name}` is a place to fill in. Those of other languages
+// are in languages.json.
 
 export const TEXTS = {
   "add": "New layer",
@@ -14,9 +14,9 @@ export const TEXTS = {
   "copyEmbed": "Copy HTML",
   "copyFailed": "The browser did not let the page copy; the text is selected: press Ctrl+C.",
   "copyLink": "Copy link",
+  "count": "count",
   "delete": "Delete layer",
   "direction": "Direction",
-  "down": "Move down",
   "duplicate": "Duplicate layer",
   "dyes": "Dyes",
   "field": "Field",
@@ -25,24 +25,23 @@ export const TEXTS = {
   "formLacks": "{version} cannot hold this design: {reason}",
   "hide": "Hide layer",
   "java": "Java {version}",
+  "language": "Language",
   "layerIn": "{pattern}, {dye}",
   "layers": "Layers",
   "layersCount": "{count} of {most}",
   "long": "{count} characters: longer than a line of the chat, so use a command block.",
-  "loom": "Fits the loom",
+  "looks": "the looks of name and lore",
   "loomNot": "Over {most} layers: by commands only",
   "lore": "lore",
   "lost": "This version does not keep: {what}",
-  "looks": "the looks of name and lore",
   "motion": "Wind and placement",
   "move": "Drag to move layer {number}",
   "name": "name",
-  "count": "count",
   "noLayers": "No layers yet. Choose a dye, then a pattern.",
   "noPatterns": "No pattern is called that. Try another word, such as stripe or corner.",
+  "notKept": "Read. Not kept: {what}",
   "notNumber": "Write a number from {least} to {most}.",
   "notRead": "{reason}. Other forms of text and files: drapery studio reads them.",
-  "notKept": "Read. Not kept: {what}",
   "paste": "Command, link or text of a banner",
   "pasteHint": "white creeper:lime, /give …, or a link of an editor",
   "patterns": "Patterns",
@@ -64,9 +63,7 @@ export const TEXTS = {
   "undo": "Undo",
   "unitDegrees": "degrees",
   "unitSpeed": "m/s",
-  "up": "Move up",
   "version": "Version",
   "wall": "On a wall",
-  "was": "Undone",
   "wind": "Wind"
 };
