@@ -13,7 +13,10 @@ from drapery import Banner, draw_face
 from drapery.styles import find_style
 
 TUTORIAL = DOCS / "tutorial.md"
-GUIDES = ("pack-authors", "maps-and-servers", "wikis-and-bots", "research")
+GUIDES = (
+    *("pack-authors", "maps-and-servers", "server-map", "wikis-and-bots", "wiki-icons"),
+    *("research", "style-tour"),
+)
 """The guides whose blocks all run. Of the other pages the programs in Python run."""
 TESTED = ("blazon", "garments", "solvers")
 """Pages that tests of their own run."""
