@@ -17,7 +17,7 @@ from drapery import Banner, animate
 from drapery.errors import BackendError, OptionError, OutputError
 from drapery.render.encode import save_animation, save_frame
 from drapery.render.encode.delays import frame_delays
-from drapery.render.encode.palette import ColourTable, median_cut, reduced
+from drapery.render.encode.palette import ColourTable, median_cut, over_matte, reduced
 from drapery.render.encode.quick_png import quick_png_bytes
 from drapery.render.frame import Animation, Frame
 
@@ -246,6 +246,16 @@ def test_a_video_comes_back_nearly(tmp_path: Path, name: str) -> None:
         assert picture.shape == (34, 48, 3)
         error = np.abs(picture[:33, :47].astype(int) - frame.pixels[..., :3])
         assert error.mean() < 3 and error.max() < 16
+
+
+@pytest.mark.parametrize("step", [1, 2])
+def test_a_picture_over_a_matte_is_exact_at_each_alpha(step: int) -> None:
+    chance = np.random.default_rng(0)
+    pixels = chance.integers(0, 256, (80, 60, 4), np.uint8)[:, ::step]
+    pixels[:20, :, 3], pixels[20:30, :, 3] = 0, 255
+    alpha = pixels[..., 3:].astype(int)
+    exact = (alpha * pixels[..., :3] + (255 - alpha) * [12, 255, 7] + 127) // 255
+    assert np.array_equal(over_matte(pixels, (12, 255, 7)), exact)
 
 
 def test_a_video_lies_on_its_matte(tmp_path: Path) -> None:

@@ -76,9 +76,18 @@ def opaque_colours(
 
 def over_matte(pixels: Pixels, matte: Matte) -> Colours:
     """The picture over one colour: round((a * src + (255 - a) * matte) / 255), [H, W, 3]."""
-    alpha = pixels[..., 3:].astype(np.uint32)
-    laid = alpha * pixels[..., :3] + (255 - alpha) * np.array(matte, np.uint32)
-    return ((laid + 127) // 255).astype(np.uint8)
+    # Few pixels are half-transparent; the others are those of the picture or of the matte, and
+    # whole pixels are copied several times as fast as their bytes.
+    words = np.ascontiguousarray(pixels).reshape(-1, 4).view("<u4")[:, 0]
+    alpha = words >> np.uint32(24)
+    behind = np.array([*matte, 255], np.uint8)
+    laid = np.where(alpha == 0, behind.view("<u4"), words).view(np.uint8).reshape(-1, 4)
+    # Of 0 the difference is the largest number.
+    soft = np.flatnonzero(alpha - np.uint32(1) < np.uint32(254))
+    some = pixels.reshape(-1, 4)[soft].astype(np.uint32)
+    mixed = some[:, 3:] * some[:, :3] + (255 - some[:, 3:]) * behind[:3].astype(np.uint32)
+    laid[soft, :3] = (mixed + 127) // 255
+    return np.ascontiguousarray(laid[:, :3]).reshape(*pixels.shape[:-1], 3)
 
 
 def reduced(colours: Colours, counts: NDArray[np.int64]) -> tuple[Colours, NDArray[np.uint8]]:
