@@ -39,6 +39,7 @@ ViewName = Literal["front", "back", "iso", "gui", "hero"]
 Samples = Literal[1, 4, 16]
 Contact = Literal["none", "world", "all"]
 Lighting = Literal["game", "flat", "studio"]
+FinishName = Literal["fabric", "plain"]
 
 MAX_SIDE = 8192
 """The widest and tallest picture [pixels]."""
@@ -105,6 +106,7 @@ class Options(TypedDict, total=False):
     layers: LayerMode
     pbr: bool
     style: StyleLike | Sequence[StyleLike]
+    finish: FinishName | None
     thickness: float
     background: str
     ground: str | None
@@ -147,6 +149,18 @@ def _ground_of(settings: Settings) -> str:
     if settings.is_hero:
         return "stone_bricks" if settings.placement == "wall" else "grass"
     return "none"
+
+
+def _light_of(settings: Settings) -> str:
+    """The light where none is given."""
+    return "studio" if settings.is_hero else "game"
+
+
+def _finish_of(settings: Settings) -> str:
+    """The finish where none is given: styles and the game's lights have a look of their own."""
+    is_studio = (settings.as_given("light") or _light_of(settings)) == "studio"
+    shown = is_studio and settings.pose == "cloth" and settings.backend != "pyrender"
+    return "fabric" if shown and not settings.style and not settings.pbr else "plain"
 
 
 def _with_given(made: Any) -> Any:
@@ -408,6 +422,20 @@ class Settings:
         affects=("shape", "surface", "light", "file"),
         not_for=("face",),
     )
+    finish: FinishName = _option(
+        None,
+        str,
+        "The cloth's surface: weave, gloss and fuzz of its fabric, or plain",
+        choices=get_args(FinishName),
+        default_text="fabric in studio light without a style, else plain",
+        audience="anyone",
+        affects=("surface",),
+        not_for=(
+            *("shield", "elytra", "vanilla", "item"),
+            *("page", "live", "model", "face", "link"),
+        ),
+        resolve=_finish_of,
+    )
     thickness: float = _option(
         1.0,
         float,
@@ -460,7 +488,7 @@ class Settings:
         choices=get_args(Lighting),
         default_text="studio in the hero view, else game",
         affects=("light",),
-        resolve=lambda settings: "studio" if settings.is_hero else "game",
+        resolve=_light_of,
     )
     block_light: int = _option(
         0,
@@ -518,6 +546,10 @@ class Settings:
         self._check_ground()
         if self.pbr and self.layers == "flat":
             raise OptionError("pbr needs the maps of each layer; use layers stacked")
+        if self.pbr and self.finish == "fabric":
+            raise OptionError("pbr has its own light for each texel; use finish plain")
+        if self.backend == "pyrender" and self.finish == "fabric":
+            raise OptionError("pyrender draws no finish of fabrics; use backend soft")
         if any(side % self.pixel for side in self.size):
             size = OPTIONS["size"].to_text(self.size)
             raise OptionError(f"size {size} is not a multiple of pixel {self.pixel}; use one")

@@ -112,6 +112,7 @@ if TYPE_CHECKING:
         Material as Material,
         Model as Model,
         Scene as Scene,
+        SurfaceDetail as SurfaceDetail,
         Texels as Texels,
         TextureLayer as TextureLayer,
     )

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.render.atlas import Atlas, make_atlas
+from drapery.render.detail import DetailTables, make_detail_tables
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Alpha, Material, Texels, TextureLayer
 
@@ -29,6 +30,7 @@ class MaterialTables:
     layer_rects: x, y, width, height in the atlas [texels], shape [C, 4], int32.
     layer_tints: shape [C, 3], uint8.
     atlas: sRGB with straight alpha, shape [H, W, 4], uint8.
+    details: see `DetailTables`.
     """
 
     material_layers: NDArray[np.int32]
@@ -38,6 +40,7 @@ class MaterialTables:
     layer_rects: NDArray[np.int32]
     layer_tints: NDArray[np.uint8]
     atlas: Texels
+    details: DetailTables
 
 
 _cache: IdentityCache[MaterialTables] = IdentityCache()
@@ -51,7 +54,7 @@ def make_material_tables(materials: Sequence[Material]) -> MaterialTables:
     arrays = tuple(layer.texels for material in materials for layer in material.layers)
     plain = [
         (
-            *(material.alpha, material.lit, material.transmission),
+            *(material.alpha, material.lit, material.transmission, material.detail),
             [layer.tint for layer in material.layers],
         )
         for material in materials
@@ -88,6 +91,7 @@ def _make(materials: Sequence[Material]) -> MaterialTables:
         atlas.rects[sprite_of],
         np.array([layer.tint for layer in layers], np.uint8).reshape(-1, 3),
         atlas.texels,
+        make_detail_tables([material.detail for material in materials]),
     )
 
 

@@ -32,6 +32,30 @@ class TextureLayer:
 
 
 @dataclass(frozen=True, eq=False)
+class SurfaceDetail:
+    """What a surface has that is finer than its texture: weave or grain, and gloss.
+
+    tile: what repeats over the surface, shape [S, S, 4], uint8, S a power of two. Its first two
+        numbers are the slopes of the normal to the right and down the texture, the third is the
+        light, each over 128 and less one; the fourth is the share of the gloss that it has, of 255.
+    repeats: how many tiles lie along a whole u and v.
+    gloss: brightness of highlights in full light, 0 to 1.
+    across, along: the share of highlights as of threads along u and along v, which shine all around
+        them; the rest is as of a smooth surface.
+    sharpness: of the highlights: the cosine of the angle to their middle is squared so often.
+    fuzz: how much brighter the surface is where one looks along it.
+    """
+
+    tile: Texels
+    repeats: tuple[float, float]
+    gloss: float = 0.0
+    across: float = 0.0
+    along: float = 0.0
+    sharpness: int = 3
+    fuzz: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
 class Material:
     """The layers of a surface, lowest first; all share the mesh's UVs, at any size.
 
@@ -40,12 +64,15 @@ class Material:
     lit: whether the scene's light changes its colours.
     transmission: the share of the light on the far side that shines through, 0 to 1; only lights
         that cast shadows do.
+    detail: what it has that is finer than its texture; only the backend `soft` draws it, where a
+        light with directions falls on it.
     """
 
     layers: tuple[TextureLayer, ...]
     alpha: Alpha = "opaque"
     lit: bool = True
     transmission: float = 0.0
+    detail: SurfaceDetail | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
+from drapery.render.light import UNLIT
 from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 
@@ -87,7 +88,7 @@ def _covered(
         near=1.0,
         far=1 + height,
     )
-    picture = draw_scene(Scene(tuple(models), below, (int(size[0]), int(size[1]))))
+    picture = draw_scene(Scene(tuple(models), below, (int(size[0]), int(size[1])), UNLIT))
     # Seen from below with +z at the top, +x is to the right; rows of the texture run along +z.
     return (picture.pixels[::-1, :, 3] > 0).astype(np.float64)
 

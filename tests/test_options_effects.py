@@ -41,8 +41,9 @@ OTHERS: dict[str, Any] = {
     "facing": "east", "view": "back", "turntable": True, "size": (32, 24), "grid": (5, 8),
     "solver": "desbrun", "fabric": "silk", "forces": [Drag(9.0)], "pins": "corners",
     "contact": "none", "wind": 4.5, "direction": 100.0, "gusts": 1.5, "time": 1.0, "seed": 7,
-    "style": "felt", "thickness": 4.0, "background": "#ff0000", "ground": "stone", "samples": 4,
-    "pixel": 2, "light": "flat", "block_light": 9, "sky_light": 2, "daylight": 0.1, "shadow": True,
+    "style": "felt", "finish": "fabric", "thickness": 4.0, "background": "#ff0000",
+    "ground": "stone", "samples": 4, "pixel": 2, "light": "flat", "block_light": 9,
+    "sky_light": 2, "daylight": 0.1, "shadow": True,
 }  # fmt: skip
 """Another value of each option."""
 BESIDE: dict[str, dict[str, Any]] = {

@@ -138,7 +138,7 @@ def test_opengl_draws_what_our_rasteriser_draws(name: str, stacked: bool) -> Non
 
 def test_opengl_casts_the_shadows_of_our_rasteriser() -> None:
     """Colours within 2/255 but for 0.1 % of the pixels, of which shadows darken a tenth."""
-    settings = Settings(size=(160, 200), view="hero", samples=4)
+    settings = Settings(size=(160, 200), view="hero", samples=4, finish="plain")
     scene = still(Banner.parse("white creeper:lime border:black"), open_packs(()), settings)
     plain = replace(scene, light=replace(scene.light, shadows=False))
     ours = soft.draw_scene(scene).pixels.astype(int)

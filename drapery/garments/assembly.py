@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
-from drapery.cloth import Cloth, Seam, sew
+from drapery.cloth import Cloth, Fabric, Seam, sew
 from drapery.cloth.pins import PinTable
 from drapery.cloth.sewing import sewn_particles
 from drapery.errors import OptionError, counted
@@ -33,7 +33,7 @@ LAYER = 2.5
 class SewnPiece:
     """How a piece is drawn. particles: of the sewn cloth, for each vertex of the shell, shape [V].
 
-    size: width and height of the piece [m].
+    size: width and height of the piece [m]. fabric: of its garment.
     """
 
     name: str
@@ -41,6 +41,7 @@ class SewnPiece:
     shell: Shell
     material: Material
     size: tuple[float, float]
+    fabric: Fabric
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,7 +198,8 @@ def _piece(
     shell = make_shell(cut.triangles, cut.uvs, mapping, cut.cloth.grid_shape if plain else None)
     width, height = cut.size
     size = (width * garment.texel, height * garment.texel)
-    return SewnPiece(cut.piece.name, particles[cut.drawn], shell, material, size)
+    drawn = particles[cut.drawn]
+    return SewnPiece(cut.piece.name, drawn, shell, material, size, garment.fabric)
 
 
 def _groups(count: int, joins: Sequence[Seam], together: bool) -> list[list[int]]:

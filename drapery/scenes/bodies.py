@@ -32,15 +32,17 @@ from drapery.cloth.gathering import fold_count, gathered_state
 from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array, Mesh
-from drapery.render.scene import Model, Scene
+from drapery.render.scene import Material, Model, Scene
 from drapery.render.vectors import unit
 from drapery.scenes.recording import Drape, Schedule, record
 from drapery.scenes.staging import Staging
 from drapery.settings import Settings
 from drapery.style.body import Body, Panel, Solid
 from drapery.style.extrusion import Shell, thicken
+from drapery.style.finish import finished
 from drapery.style.refinement import cells_per_cell, finer_shape
 from drapery.style.sheet import Sheet
+from drapery.style.uv_mapping import UVMapping
 from drapery.styles.grids import finer_shell, grid_shell
 
 STEP = 1.0 / 60.0
@@ -200,14 +202,22 @@ class StagedBody:
 
     def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
         """The meshes with the materials of a time [s]; body: another one, which gives them."""
-        shown, style = body or self.body, self.staging.style
+        shown = body or self.body
         materials = [part.material_at(time) for part in shown.parts]
-        materials += [style.material(panel.material_at(time)) for panel in shown.panels]
+        materials += [self._material(panel, time) for panel in shown.panels]
         names = [part.name for part in shown.parts] + [panel.name for panel in shown.panels]
         return [
             Model(mesh, (made,), name=name)
             for mesh, made, name in zip(meshes, materials, names, strict=True)
         ]
+
+    def _material(self, panel: Panel, time: float) -> Material:
+        """The material of a panel at a time [s] in the style, with the finish of its fabric."""
+        settings = self.staging.settings
+        material = self.staging.style.material(panel.material_at(time))
+        if settings.finish == "plain" or settings.pose != "cloth":
+            return material
+        return with_finish(material, settings.fabric, panel.uv_mapping, panel.size)
 
     def moved(self, motions: Sequence[Array]) -> list[Array]:
         """The motion of each panel after the style's steps. motions: [m], each [F, N, 3]."""
@@ -340,6 +350,24 @@ class LiveBody(StagedBody):
         if self.staging.settings.pose == "cloth":
             return self.soft([cloth.state.positions[0] for cloth in self.cloths])
         return self.stiff([_phase(panel, self.time) for panel in self.body.panels])
+
+
+def with_finish(
+    material: Material, fabric: str | Fabric, mapping: UVMapping, size: tuple[float, float]
+) -> Material:
+    """A material that looks like its fabric; see `finished`.
+
+    fabric: its name, or a fabric that looks like the preset that it equals, or else as before.
+    """
+    name = fabric if isinstance(fabric, str) else _fabric_names().get(fabric)
+    if name is None:
+        return material
+    return finished(material, name, FABRICS[name].transmission, mapping, size)
+
+
+@lru_cache(maxsize=1)
+def _fabric_names() -> dict[Fabric, str]:
+    return {fabric: name for name, fabric in FABRICS.items()}
 
 
 def texture_times(period: float, count: int, fps: float) -> tuple[float, ...]:

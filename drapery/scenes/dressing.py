@@ -29,7 +29,7 @@ from drapery.garments.model import Garment, GarmentPole
 from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
 from drapery.render.scene import Model, RiggedModel, Scene
-from drapery.scenes.bodies import STEP, wind_of
+from drapery.scenes.bodies import STEP, wind_of, with_finish
 from drapery.scenes.layered import common_bones, joint_contact, meet_each_other
 from drapery.scenes.moving import in_wind
 from drapery.scenes.recording import Drape, Meeting, Schedule, record
@@ -95,6 +95,8 @@ class Dressed:
         if who and who.shown == "head":
             return ()
         sewn = tailor(with_head_banner(self.garment), self.packs)
+        if self.settings.finish == "fabric":
+            sewn = tuple(_finished(each) for each in sewn)
         if self.wearer is None or who is None or who.kind != "player":
             return sewn
         sewn = put_outside(sewn)
@@ -321,6 +323,18 @@ def _begins_in(sewn: SewnCloth, box: Box) -> bool:
     places = sampled(sewn.start, sewn.cloth.triangles)
     away = np.abs(places - box.centre) - np.asarray(box.size) / 2
     return bool((away.max(axis=1) < sewn.distance / 2).any())
+
+
+def _finished(sewn: SewnCloth) -> SewnCloth:
+    """A cloth whose pieces look like their fabric."""
+    pieces = (
+        replace(
+            piece,
+            material=with_finish(piece.material, piece.fabric, piece.shell.uv_mapping, piece.size),
+        )
+        for piece in sewn.pieces
+    )
+    return replace(sewn, pieces=tuple(pieces))
 
 
 def _shifted(model: Model, by: Array) -> Model:

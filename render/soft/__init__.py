@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from drapery.errors import OptionError
 from drapery.mesh import Mesh, Triangles
 from drapery.render.buffers import Buffers
-from drapery.render.camera import Matrix, clip_matrix
+from drapery.render.camera import Camera, Matrix, clip_matrix
+from drapery.render.detail import DetailTables
 from drapery.render.drawlist import DrawList, Float32, Topology, make_topology
 from drapery.render.flatten import composite_layers
 from drapery.render.frame import Frame
@@ -29,6 +30,7 @@ from drapery.render.soft.blending import FULL_LIGHT
 from drapery.render.soft.cast import find_shaded
 from drapery.render.soft.clipping import Corners, clip
 from drapery.render.soft.coverage import depth_tiles
+from drapery.render.soft.detail import lean_vertices
 from drapery.render.soft.projection import BROKEN, NEAREST, VERTEX, project
 from drapery.render.soft.shadows import (
     NO_RECEIVERS,
@@ -39,6 +41,7 @@ from drapery.render.soft.shadows import (
 )
 from drapery.render.soft.surface import surface_tiles
 from drapery.render.soft.tiles import draw_tiles
+from drapery.render.vectors import unit
 from drapery.render.workers import run_parts, worker_count
 
 MAX_SIZE = 16384
@@ -66,6 +69,7 @@ class Raster:
     triangles, triangle_material: as in `Topology`.
     receivers: more numbers of each vertex, shape [V, 4] or none: where it lies on the shadow map
         (see `draw_tiles`), or its normal and model while it is clipped.
+    leaning: see `lean_vertices`, shape [V, 4], or none where no material has a detail.
     """
 
     vertices: NDArray[np.void]
@@ -73,6 +77,7 @@ class Raster:
     triangles: Triangles
     triangle_material: NDArray[np.int32]
     receivers: Float32 = field(default_factory=lambda: NO_RECEIVERS)
+    leaning: Float32 = field(default_factory=lambda: NO_RECEIVERS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,11 +141,14 @@ def _draw_picture(scene: Scene, workers: int) -> tuple[Frame, SharedSurface | No
     shadows = NO_SHADOWS
     if scene.light.shadows and len(raster.vertices):
         raster, shadows = _shadowed(scene, constant, raster, tables, workers)
+    details = constant.material_tables.details
+    if len(details.tiles) and scene.light.directions:
+        raster = replace(raster, leaning=_leaning(scene, constant))
     if union:
         raster = _clipped(scene, raster, matrix, grid)
     raster = _blends_last(raster, constant.material_tables.material_alpha)
     picture = np.full((scene.size[1], scene.size[0]), _background(scene), np.uint32)
-    tiles = _draw(scene, tables, raster, shadows, grid, workers, picture)
+    tiles = _draw(scene, tables, raster, shadows, details, grid, workers, picture)
     frame = Frame(picture.view(np.uint8).reshape(*picture.shape, 4))
     if not is_shared or union or tiles is None:
         return frame, None
@@ -231,6 +239,37 @@ def _shadowed(
     depths = np.zeros(side * side, np.int32)
     _draw_depths(casters, tables, side, workers, depths)
     return replace(raster, receivers=shaded), ShadowMap(depths, side, found.spread)
+
+
+def _leaning(scene: Scene, constant: Topology) -> Float32:
+    """How the light of each vertex changes with its normal, and its gloss; see `lean_vertices`."""
+    positions, normals = (
+        np.concatenate([_vectors(getattr(model.mesh, name)) for model in scene.models])
+        for name in ("positions", "normals")
+    )
+    light, details = scene.light, constant.material_tables.details
+    found = np.zeros((len(positions), 4), np.float32)
+    lean_vertices(
+        positions,
+        normals,
+        constant.uvs,
+        constant.triangles,
+        constant.triangle_material,
+        (details.rows, details.finishes),
+        light.unit_directions(),
+        np.array([light.ambient, light.diffuse], float),
+        _eye(scene.camera),
+        found,
+    )
+    return found
+
+
+def _eye(camera: Camera) -> NDArray[np.float64]:
+    """The camera's place and 1, or in a parallel view the direction towards it and 0."""
+    place = np.array(camera.position, float)
+    if camera.height is None:
+        return np.append(place, 1.0)
+    return np.append(unit(place - np.array(camera.target, float)), 0.0)
 
 
 def _project_points(
@@ -385,20 +424,25 @@ def _clipped(scene: Scene, raster: Raster, matrix: Matrix, grid: int) -> Raster:
         raster.flags,
         np.concatenate([raster.triangles[whole], numbers])[order],
         raster.triangle_material[source][order],
-        np.concatenate([raster.receivers, corners[:, CLIPPED:].astype(np.float32)])
-        if len(raster.receivers)
-        else NO_RECEIVERS,
+        *_joined_attributes(raster, corners[:, CLIPPED:].astype(np.float32)),
     )
 
 
+def _joined_attributes(raster: Raster, corners: Float32) -> Iterator[Float32]:
+    """The receivers and the leaning of all vertices. corners: those of new ones side by side."""
+    for known in (raster.receivers, raster.leaning):
+        width = known.shape[1] if len(known) else 0
+        yield np.concatenate([known, corners[:, :width]]) if width else known
+        corners = corners[:, width:]
+
+
 def _clip_corners(scene: Scene, raster: Raster, matrix: Matrix, used: Triangles) -> Corners:
-    """Clip coordinates, brightness, UVs and receivers of corners, shape [K, 3, 7 or 11]."""
+    """Clip coordinates, brightness, UVs and what else vertices have, shape [K, 3, 7 to 15]."""
     positions = np.concatenate([_vectors(model.mesh.positions) for model in scene.models])[used]
     coordinates = sum(positions[..., k, None] * matrix[:, k] for k in range(3)) + matrix[:, 3]
     vertices = raster.vertices[used]
     attributes = [vertices[name][..., None] for name in ("shade", "u", "v")]
-    if len(raster.receivers):
-        attributes.append(raster.receivers[used])
+    attributes += [more[used] for more in (raster.receivers, raster.leaning) if len(more)]
     return np.concatenate([coordinates, *attributes], axis=-1)
 
 
@@ -436,6 +480,7 @@ def _draw(
     tables: KernelTables,
     raster: Raster,
     shadows: ShadowMap,
+    details: DetailTables,
     grid: int,
     workers: int,
     picture: NDArray[np.uint32],
@@ -447,6 +492,7 @@ def _draw(
         np.rint(np.array(scene.light.tint) * FULL_LIGHT).astype(np.int64),
         raster.receivers,
         _kernel_shadows(raster, shadows),
+        (raster.leaning, details.rows, details.tiles),
         _background(scene),
         grid,
         scene.size,

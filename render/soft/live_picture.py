@@ -74,6 +74,8 @@ def make_live_picture(scene: Scene, moving: int, spare: int = 0) -> LivePicture:
     grid, constant = _grid(scene), make_topology(scene.models)
     if scene.light.shadows:
         raise OptionError("cast shadows need Python; use light game or flat")
+    if len(constant.material_tables.details.tiles):
+        raise OptionError("the finish of a fabric needs Python; use finish plain")
     if (constant.material_tables.material_alpha == BLEND).any():
         raise OptionError("translucent materials, such as a shadow, need Python; leave them out")
     positions, normals = (
@@ -167,6 +169,7 @@ def draw_live(positions: Any, normals: Any, live: Any) -> Any:
         live.tint,
         live.receivers,
         (live.shaded, (live.depths, 0, 0.0)),
+        (np.empty((0, 4), np.float32), np.empty((0, 4), np.int32), np.empty(0, np.int64)),
         live.background,
         live.grid,
         live.size,

@@ -18,6 +18,7 @@ from drapery.render.soft.blending import (
 )
 from drapery.render.soft.cast import cast_shadows
 from drapery.render.soft.coverage import BLEND, LAYER, cover_tile
+from drapery.render.soft.detail import add_detail, add_gloss
 from drapery.render.soft.triangle_setup import SETUP, SLOTS, set_up, texels_of, weights_of
 
 
@@ -125,6 +126,7 @@ def _shade_tile(
     tint: Any,
     receivers: Any,
     shadows: Any,
+    details: Any,
     grid: Any,
     keys: Any,
     colours: Any,
@@ -133,16 +135,18 @@ def _shade_tile(
     """Colour the visible samples of the tile at x0, y0, one run of the same triangle after another.
 
     layer: start of the keys; 0 for solid triangles, LAYER for one that blends.
-    tint: see `lit`. receivers, shadows: see `draw_tiles`. grid: samples along a pixel's side.
-    scratch: setups of triangles; of each sample of a row the runs, light, place in the atlas and
-        colour; then that of `cast_shadows`.
+    tint: see `lit`. receivers, shadows, details: see `draw_tiles`. grid: samples along a pixel's
+        side.
+    scratch: setups of triangles; of each sample of a row the runs, light, place in the atlas,
+        colour and gloss; then that of `cast_shadows`.
     The layers of a run are composited first, and a row is lit once at the end. A loop goes over
     whole groups of samples, so that it can be vectorised: what is beyond a run is overwritten by
     the next one, or not seen.
     """
     _, triangles, triangle_material = mesh
     materials, _, atlas, wide = tables
-    setups, (runs, light, place, shown), dusk = scratch
+    setups, (runs, light, place, shown, shine), dusk = scratch
+    is_detailed = len(details[0]) > 0
     solid = np.uint32(0 if layer else OPAQUE_BITS)
     left, right, top, bottom = bounds
     for row in range(top, bottom + 1):
@@ -198,10 +202,16 @@ def _shade_tile(
                     light,
                     dusk,
                 )
+            if is_detailed and setup.is_lit and details[1][triangle_material[t], 0] >= 0:
+                lines = w0, dw, u0, du, v0, dv
+                weights = wa, wb, wc, setup.da, setup.db, setup.dc
+                add_detail(t, x, count, lines, weights, mesh, details, grid, setup, light, shine)
         if layer:
             _blend_row(row, left, right, shown, light, tint, keys, colours)
         else:
             _light_row(row, shown, light, tint, keys, colours)
+            if is_detailed:
+                add_gloss(row, tint, shine, keys, colours)
 
 
 @entry_point
@@ -217,6 +227,7 @@ def draw_tiles(
     tint: Any,
     receivers: Any,
     shadows: Any,
+    details: Any,
     background: Any,
     grid: Any,
     size: Any,
@@ -235,6 +246,8 @@ def draw_tiles(
         in shadow; shape [V, 4], float32, or empty for a light that casts no shadows.
     shadows: which triangles may lie in shadow, shape [T]; and the map's depths, its side and the
         distance of the places compared; see `ShadowMap`.
+    details: how vertices lean, see `lean_vertices`, empty where no material has a detail; the rows
+        and tiles of materials, see `MaterialTables`.
     background: one uint32, 0xAABBGGRR, as all colours here.
     grid: samples along a pixel's side.
     size: of the picture [pixels]; picture: shape [H * W], uint32, filled with the background.
@@ -255,6 +268,7 @@ def draw_tiles(
             np.zeros(STRIDE, np.int32),
             np.zeros(STRIDE, np.int32),
             np.zeros(STRIDE, np.uint32),
+            np.zeros(STRIDE, np.int32),
         ),
         (
             np.empty(STRIDE),
@@ -296,6 +310,7 @@ def draw_tiles(
                 factors,
                 receivers,
                 shadows,
+                details,
                 grid,
                 keys,
                 colours,

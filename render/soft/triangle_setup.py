@@ -10,7 +10,7 @@ from drapery.render.soft.blending import FULL_LIGHT
 SLOTS = 256
 """Triangles whose setup is kept, a power of two: most are met again in the next row of the tile."""
 
-_INTEGERS = "triangle origin a0 ax ay b0 bx by c0 cx cy"
+_INTEGERS = "triangle origin a0 ax ay b0 bx by c0 cx cy level mix"
 _FLOATS = (
     "inv_wa inv_wb inv_wc ua ub uc va vb vc sa sb sc da db dc dw du dv ds"
     " across i_low i_high down j_low j_high"
@@ -32,6 +32,7 @@ a0, ax, ay: the edge function opposite corner a at the picture's first sample, a
 inv_wa, ua, va, sa: 1 / w, u, v and brightness of corner a. da: step to the right of the edge
     function over w. dw, du, dv, ds: of 1 / w, and of u, v and light over w.
 across, down: texels of the lowest layer; i_low, i_high, j_low, j_high: those that may be seen.
+level, mix: of the detail, -1 where they are not known yet; see `add_detail`.
 is_plain: whether that layer is the only one and has no tint.
 """
 
@@ -63,7 +64,7 @@ def set_up(t: Any, mesh: Any, tables: Any, setup: Any) -> Any:
     left, top = layers[lowest, 0], layers[lowest, 1]
     across, down = layers[lowest, 2], layers[lowest, 3]
     red, green, blue = layers[lowest, 4], layers[lowest, 5], layers[lowest, 6]
-    setup.triangle, setup.origin = t, top * wide + left
+    setup.triangle, setup.origin, setup.level = t, top * wide + left, -1
     setup.across, setup.down = across, down
     setup.i_low, setup.i_high = texels_of(a.u, b.u, c.u, across)
     setup.j_low, setup.j_high = texels_of(a.v, b.v, c.v, down)

@@ -1,0 +1,255 @@
+"""How each fabric looks: its weave, nap or grain, its gloss and its fuzz, one row a fabric.
+
+A tile repeats over the cloth, PITCH texels of it to the metre. It is drawn from heights: slopes
+bend the light, hollows are darker, and what stands out shines. Threads are about ten times as thick
+as real ones, so that a picture of a few hundred pixels shows them.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from drapery.elementary import sine_of_turns
+from drapery.mesh import Array
+from drapery.render import IdentityCache
+from drapery.render.scene import Material, SurfaceDetail, Texels
+from drapery.style.uv_mapping import UVMapping
+
+SIDE = 256
+"""Side of a tile [texels of it]; periods of weaves divide it."""
+PITCH = 384
+"""Texels of a tile along a metre of cloth: 16 for each texel of a flag."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Of each texel of a tile, shape [SIDE, SIDE].
+
+    height: [texels of the tile]. tone: how much lighter it is than the dye, -1 to 1.
+    shine: the share of the gloss that it has, 0 to 1.
+    """
+
+    height: Array
+    tone: Array
+    shine: Array
+
+
+@dataclass(frozen=True)
+class Finish:
+    """The look of a fabric. surface: draws it. All else: see `SurfaceDetail`."""
+
+    surface: Callable[[], Surface]
+    gloss: float = 0.0
+    across: float = 0.0
+    along: float = 0.0
+    sharpness: int = 3
+    fuzz: float = 0.0
+
+
+def twill() -> Surface:
+    """Wool: ribs that run up to the right, under a nap of short fibres."""
+    y, x = _places()
+    rib = 0.5 + 0.5 * sine_of_turns((x + y) * (20 / SIDE) + 0.15 * _clouds(16, 1))
+    nap, clouds = _strands(6, 2), _clouds(16, 4)
+    height = 1.2 * rib + 1.5 * nap
+    tone = 0.15 * (rib - 0.5) + 0.16 * (nap - 0.5) + 0.12 * (clouds - 0.5)
+    return Surface(height, tone, np.ones_like(rib))
+
+
+def plain_weave(width: int, depth: float, uneven: float, slub: float, seed: int) -> Surface:
+    """Threads that go over one and under the next.
+
+    width: of a thread [texels of the tile]. depth: how much darker the gaps are. uneven: how much
+    threads differ in tone. slub: by how much they are thicker at some places [texels of the tile].
+    """
+    y, x = _places()
+    column, row = x // width, y // width
+    upright = (column + row) % 2 == 0
+    across, along = np.where(upright, (x, y), (y, x)) % width
+    bulge = _bulge(across, width) * (0.55 + 0.45 * _bulge(along, width))
+    own = _noise((2, SIDE // width), seed)
+    thread = np.where(upright, own[0][column], own[1][row]) - 0.5
+    warp, weft = _streaks(width, seed + 1), _streaks(width, seed + 2).T
+    swollen = np.where(upright, warp, weft) - 0.5
+    tone = depth * (bulge - 0.6) + uneven * (thread + swollen)
+    return Surface(0.25 * width * bulge + slub * swollen, tone, 0.3 + 0.7 * bulge)
+
+
+def satin() -> Surface:
+    """Silk: fine level threads that float over many others, some of them thicker."""
+    y, _ = _places()
+    threads, slubs = _streaks(2, 11).T, _streaks(4, 12).T
+    fine = 0.5 + 0.5 * sine_of_turns(y / 4)
+    height = 0.3 * fine + 0.35 * threads + 0.3 * slubs
+    tone = 0.05 * (threads - 0.5) + 0.05 * (slubs - 0.5) + 0.03 * (fine - 0.5)
+    return Surface(height, tone, 0.6 + 0.25 * threads + 0.15 * slubs)
+
+
+def matted() -> Surface:
+    """Felt: short fibres in all directions, and clouds where they are denser."""
+    fibres, knots, clouds = _strands(9, 21), _clouds(8, 23), _clouds(16, 22)
+    tone = 0.24 * (fibres - 0.5) + 0.10 * (knots - 0.5) + 0.16 * (clouds - 0.5)
+    return Surface(1.6 * fibres + 1.2 * knots, tone, np.ones_like(tone))
+
+
+def grain() -> Surface:
+    """Leather: pebbles of uneven size between creases, and patches that are worn smooth."""
+    patches = _clouds(64, 33)
+    pebble = _smoothstep(_cells(8, 31) / 4)
+    small = _smoothstep(_cells(4, 32) / 2)
+    height = 1.3 * pebble + 0.4 * small
+    tone = 0.20 * (pebble - 0.7) + 0.04 * (small - 0.7) + 0.14 * (patches - 0.5)
+    return Surface(height, tone, (0.25 + 0.75 * pebble) * (0.5 + 0.5 * patches))
+
+
+FINISHES: Mapping[str, Finish] = MappingProxyType(
+    {
+        "wool": Finish(twill, fuzz=0.3),
+        "cotton": Finish(lambda: plain_weave(4, 0.20, 0.07, 0.2, 41)),
+        "linen": Finish(lambda: plain_weave(4, 0.26, 0.22, 1.2, 51), gloss=0.10, sharpness=2),
+        "silk": Finish(satin, gloss=0.55, across=0.7, sharpness=5),
+        "canvas": Finish(lambda: plain_weave(8, 0.34, 0.08, 0.3, 61)),
+        "leather": Finish(grain, gloss=0.55, sharpness=4),
+        "felt": Finish(matted, fuzz=0.7),
+    }
+)
+"""By the names of fabrics; see `drapery.cloth.FABRICS`."""
+
+_finished: IdentityCache[Material] = IdentityCache(32)
+
+
+def finished(
+    material: Material,
+    fabric: str,
+    transmission: float,
+    mapping: UVMapping,
+    size: tuple[float, float],
+) -> Material:
+    """A material with the look of a fabric; the same object for the same material.
+
+    fabric: a name of `FINISHES`. transmission: see `Material`.
+    mapping: where the cloth lies on its texture. size: width and height of the cloth [m].
+    """
+
+    def make() -> Material:
+        detail = _detail(FINISHES[fabric], _tile(fabric), mapping, size)
+        return replace(material, detail=detail, transmission=transmission)
+
+    return _finished.get((material,), (fabric, transmission, mapping, size), make)
+
+
+def _detail(
+    look: Finish, tile: Texels, mapping: UVMapping, size: tuple[float, float]
+) -> SurfaceDetail:
+    corners = mapping.front(np.array([[0.0, 0.0], [1.0, 1.0]]))
+    across, down = np.abs(corners[1] - corners[0]) * SIDE / PITCH
+    repeats = float(size[0] / across), float(size[1] / down)
+    lobes = look.gloss, look.across, look.along, look.sharpness, look.fuzz
+    return SurfaceDetail(tile, repeats, *lobes)
+
+
+@cache
+def _tile(name: str) -> Texels:
+    """The tile of a fabric, see `SurfaceDetail`."""
+    drawn = FINISHES[name].surface()
+    slopes = [
+        (np.roll(drawn.height, 1, axis) - np.roll(drawn.height, -1, axis)) / 2 for axis in (1, 0)
+    ]
+    tone = drawn.tone - drawn.tone.mean()
+    signed = [128 + 128 * part for part in (*slopes, tone)]
+    numbers = np.stack([*signed, 255 * drawn.shine], axis=-1)
+    tile: Texels = np.clip(np.rint(numbers), 0, 255).astype(np.uint8)
+    return tile
+
+
+def _places() -> Any:
+    """Row and column of each texel."""
+    return np.indices((SIDE, SIDE))
+
+
+def _bulge(place: Array, width: int) -> Array:
+    """The height 0..1 of a round thread at a place across its width."""
+    bulge: Array = np.clip(sine_of_turns((place + 0.5) / (2 * width)), 0, 1)
+    return bulge
+
+
+def _smoothstep(part: Array) -> Array:
+    part = np.clip(part, 0, 1)
+    smooth: Array = part * part * (3 - 2 * part)
+    return smooth
+
+
+def _noise(shape: tuple[int, ...], seed: int) -> Array:
+    return np.random.default_rng(seed).random(shape)
+
+
+def _clouds(cell: int, seed: int) -> Array:
+    """Noise 0..1 that changes over `cell` texels and repeats after SIDE."""
+    count = max(1, SIDE // cell)
+    return _lattice(_noise((count, count), seed))
+
+
+def _streaks(width: int, seed: int) -> Array:
+    """Noise 0..1 in upright stripes of a width, that changes slowly along them."""
+    stripes = _noise((SIDE // 32, SIDE // width), seed)
+    along = _lattice(stripes, columns=False)
+    return along[:, np.arange(SIDE) // width]
+
+
+def _lattice(corners: Array, columns: bool = True) -> Array:
+    """Values on a lattice that repeats, blended by smoothstep to SIDE rows, and columns."""
+    blend = _blended(corners)
+    return _blended(blend.T).T if columns else blend
+
+
+def _blended(corners: Array) -> Array:
+    at = np.arange(SIDE) * (len(corners) / SIDE)
+    low = at.astype(int)
+    part = at - low
+    share = _smoothstep(part)[:, None]
+    blend: Array = (1 - share) * corners[low] + share * corners[(low + 1) % len(corners)]
+    return blend
+
+
+def _strands(length: int, seed: int) -> Array:
+    """Noise 0..1 of short fibres in eight directions."""
+    total = np.zeros((SIDE, SIDE))
+    for number, (down, right) in enumerate(_DIRECTIONS):
+        noise = _noise((SIDE, SIDE), seed + number)
+        fibres = sum(np.roll(noise, (k * down // 2, k * right // 2), (0, 1)) for k in range(length))
+        # Of the same spread for every length: the sum of random numbers grows as its root.
+        total = np.maximum(total, 0.5 + (fibres / length - 0.5) * np.sqrt(length))
+    return np.clip((total - 0.55) / 0.9, 0, 1)
+
+
+def _cells(size: int, seed: int) -> Array:
+    """How far each texel is from the edge of its cell [texels]; cells are about `size` wide.
+
+    Steven Worley, "A cellular texture basis function" (SIGGRAPH 1996): a point in each square of a
+    lattice, and the distances to the nearest and to the second of them.
+    """
+    count = SIDE // size
+    side = SIDE / count
+    points = _noise((2, count, count), seed) * 0.8 + 0.1
+    y, x = _places()
+    row, column = (y / side).astype(int), (x / side).astype(int)
+    first = np.full((SIDE, SIDE), np.inf)
+    second = first.copy()
+    for down in (-2, -1, 0, 1, 2):
+        for right in (-2, -1, 0, 1, 2):
+            r, c = row + down, column + right
+            py = (r + points[0][r % count, c % count]) * side - y
+            px = (c + points[1][r % count, c % count]) * side - x
+            far = py * py + px * px
+            second = np.minimum(second, np.maximum(first, far))
+            first = np.minimum(first, far)
+    edge: Array = np.sqrt(second) - np.sqrt(first)
+    return edge
+
+
+_DIRECTIONS = ((0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (2, -1), (2, -2), (1, -2))
+"""Two steps along a fibre, down and to the right."""

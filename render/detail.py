@@ -1,0 +1,76 @@
+"""The details of materials as tables, and their tiles in halved copies down to one texel."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drapery.errors import OptionError
+from drapery.render.scene import SurfaceDetail, Texels
+
+MAX_SIDE = 1024
+"""The longest side of a tile [texels]."""
+
+
+@dataclass(frozen=True, eq=False)
+class DetailTables:
+    """The details of L materials.
+
+    rows: the first texel in `tiles` or -1 for no detail, the power of two that is the tile's side,
+        and the tile's texels along a whole u and v; shape [L, 4], int32.
+    finishes: gloss, across, along, fuzz and sharpness, see `SurfaceDetail`; shape [L, 5].
+    tiles: the texels of all copies of tiles, 16 bits for each of the four numbers, int64.
+    """
+
+    rows: NDArray[np.int32]
+    finishes: NDArray[np.float64]
+    tiles: NDArray[np.int64]
+
+
+def make_detail_tables(details: Sequence[SurfaceDetail | None]) -> DetailTables:
+    """The tables of the details of materials in their order. Raises OptionError."""
+    rows = np.full((len(details), 4), -1, np.int32)
+    finishes = np.zeros((len(details), 5))
+    tiles: list[NDArray[np.int64]] = []
+    starts: dict[int, int] = {}
+    count = 0
+    for number, detail in enumerate(details):
+        if detail is None:
+            continue
+        side = _side(detail.tile)
+        if id(detail.tile) not in starts:
+            starts[id(detail.tile)] = count
+            tiles.append(_copies(detail.tile))
+            count += len(tiles[-1])
+        across, down = (round(side * times) for times in detail.repeats)
+        rows[number] = starts[id(detail.tile)], side.bit_length() - 1, across, down
+        shares = detail.gloss, detail.across, detail.along, detail.fuzz, detail.sharpness
+        finishes[number] = shares
+    return DetailTables(rows, finishes, np.concatenate([np.zeros(0, np.int64), *tiles]))
+
+
+def _side(tile: Texels) -> int:
+    side = int(tile.shape[0])
+    is_square = tile.ndim == 3 and tile.shape == (side, side, 4) and tile.dtype == np.uint8
+    if not is_square or side & (side - 1) or not 1 <= side <= MAX_SIDE:
+        raise OptionError(
+            f"the tile of a detail has shape {tile.shape} and type {tile.dtype}; use"
+            f" [side, side, 4] of uint8 with a power of two up to {MAX_SIDE} as its side"
+        )
+    return side
+
+
+def _copies(tile: Texels) -> NDArray[np.int64]:
+    """A tile, its copies of half the side each down to one texel, and that one again."""
+    level = tile.astype(np.int64)
+    levels = [level]
+    while len(level) > 1:
+        four = level[::2, ::2] + level[1::2, ::2] + level[::2, 1::2] + level[1::2, 1::2]
+        level = (four + 2) >> 2
+        levels.append(level)
+    packed = [
+        each[..., 0] | each[..., 1] << 16 | each[..., 2] << 32 | each[..., 3] << 48
+        for each in [*levels, level]
+    ]
+    return np.concatenate([each.reshape(-1) for each in packed])
