@@ -54,7 +54,8 @@ def test_the_table_of_limits_is_true(row: tuple[str, ...]) -> None:
         pytest.importorskip("fastapi")
     stated = float(number.replace(",", "")) * (UNITS[unit] if unit else 1)
     assert getattr(importlib.import_module(f"drapery.{module}"), name) == stated
-    tree = ast.parse((ROOT / "tests" / file).read_text(encoding="utf-8"))
+    (path,) = (ROOT / "tests").rglob(file)
+    tree = ast.parse(path.read_text(encoding="utf-8"))
     assert test in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
 
 

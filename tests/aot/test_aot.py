@@ -18,7 +18,7 @@ from drapery.aot.arguments import pack
 from drapery.jit import entry_point
 from drapery.jit_runtime import add_runtime
 
-RELEASE = Path(__file__).parent.parent / "release"
+RELEASE = Path(__file__).parents[2] / "release"
 
 
 class Pair(NamedTuple):
@@ -95,7 +95,7 @@ def arguments():
 BUILD = """
 import os, sys
 os.environ |= {"NUMBA_OPT": "0", "DRAPERY_AOT": "0"}
-sys.path[:0] = [TESTS, ROOT]
+sys.path[:0] = [*TESTS, ROOT]
 from pathlib import Path
 import numba
 import test_aot
@@ -118,7 +118,7 @@ def built(tmp_path_factory):
         pytest.skip("the processor has no AVX2, for which libraries are compiled")
     folder = tmp_path_factory.mktemp("aot")
     path = folder / library.library_path().name
-    places = {"TESTS": str(RELEASE.parent / "tests"), "ROOT": str(RELEASE.parent)}
+    places = {"TESTS": [*map(str, Path(__file__).parents[:2])], "ROOT": str(RELEASE.parent)}
     lines = [f"{name} = {value!r}" for name, value in places.items()]
     env = os.environ | {"NUMBA_CACHE_DIR": str(folder / "cache")}
     command = [sys.executable, "-c", "\n".join([*lines, BUILD]), path]

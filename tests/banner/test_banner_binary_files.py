@@ -433,7 +433,7 @@ def test_the_bits_of_an_index():
     assert [bits_for(n, 4) for n in (0, 1, 16, 17, 33, 4096)] == [4, 4, 4, 5, 6, 12]
 
 
-DOCS = Path(__file__).parents[1] / "docs" / "reference" / "forms.md"
+DOCS = Path(__file__).parents[2] / "docs" / "reference" / "forms.md"
 PLAYER = {"Inventory": [make.item(RED)]}
 RED_BLOCK = {(1, 2, 3): (make.block_id(RED), make.entity(RED))}
 SAMPLES = {

@@ -18,7 +18,7 @@ from drapery.errors import DesignError
 
 BLAZONS = [
     line
-    for line in (Path(__file__).parent / "blazons.txt").read_text("utf-8").splitlines()
+    for line in (Path(__file__).parents[1] / "blazons.txt").read_text("utf-8").splitlines()
     if not line.startswith("#")
 ]
 
@@ -204,7 +204,7 @@ def test_the_command_reads_blazon_and_show_writes_it(drapery: Run, tmp_path: Pat
 
 
 def test_the_page_on_blazon_tells_what_happens(drapery: Run) -> None:
-    page = (Path(__file__).parents[1] / "docs" / "guides" / "blazon.md").read_text("utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "guides" / "blazon.md").read_text("utf-8")
     blocks = page.split("```")[1::2]
     for block in blocks:
         if block.startswith("python"):

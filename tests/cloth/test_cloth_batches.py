@@ -88,9 +88,10 @@ def sway(time):
     return np.eye(3), np.array([0.2 * np.sin(3 * time), 0.0, 0.1 * time])
 
 
+FOLDERS = [str(folder) for folder in Path(__file__).parents[:2]]
 PROGRAM = """
 import sys
-sys.path.insert(0, {tests!r})
+sys.path[:0] = {folders}
 from test_cloth_batches import *
 print(swung())
 """
@@ -103,7 +104,7 @@ def swung():
 
 def test_another_processors_code_gives_the_same_bits(untraced_processes):
     plain = os.environ | {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
-    program = PROGRAM.format(tests=str(Path(__file__).parent))
+    program = PROGRAM.format(folders=FOLDERS)
     there = subprocess.run(
         [sys.executable, "-c", program], env=plain, capture_output=True, text=True, check=True
     )
@@ -112,7 +113,7 @@ def test_another_processors_code_gives_the_same_bits(untraced_processes):
 
 FORK = """
 import os, sys
-sys.path.insert(0, {tests!r})
+sys.path[:0] = {folders}
 from test_cloth_batches import *
 
 def end():
@@ -132,7 +133,7 @@ os.wait()
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
 def test_a_forked_child_simulates_with_new_threads():
-    program = FORK.format(tests=str(Path(__file__).parent))
+    program = FORK.format(folders=FOLDERS)
     command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", program]
     run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     parent, child = run.stdout.split()

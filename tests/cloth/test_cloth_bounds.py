@@ -10,7 +10,7 @@ import pytest
 
 from drapery.settings import SolverName
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 CHECKED = {"NUMBA_BOUNDSCHECK": "1", "NUMBA_OPT": "1", "DRAPERY_AOT": "0"}
 
 

@@ -165,7 +165,7 @@ def test_solvers_are_found_by_name_with_their_options():
 
 
 def test_the_pages_on_solvers_and_contact_run_as_they_are_written():
-    folder = Path(__file__).parents[1] / "docs" / "explanation"
+    folder = Path(__file__).parents[2] / "docs" / "explanation"
     page = "".join((folder / f"{name}.md").read_text("utf-8") for name in ("solvers", "contact"))
     names: dict[str, object] = {}
     for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL):

@@ -48,7 +48,7 @@ from drapery.style.figure import TEXEL, cape_mapping
 from drapery.testing import check_garment
 from drapery.testing.plugin import Golden
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "guides" / "garments.md").read_text(encoding="utf-8")
 FILES = ROOT / "drapery" / "garments" / "files"
 CAPE = """\

@@ -37,7 +37,7 @@ from drapery.style.skins import MIRRORED, OVERLAYS, SLIM_PARTS, Skin, read_skin
 from drapery.testing import check_garment
 from drapery.testing.plugin import Golden
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "guides" / "players.md").read_text(encoding="utf-8")
 FACES = 6
 

@@ -104,7 +104,7 @@ ROUNDED_OFF = {
 
 
 def test_sources_use_no_function_that_numpy_has_for_each_processor() -> None:
-    root = Path(__file__).parents[1]
+    root = Path(__file__).parents[2]
     for path in [*root.glob("drapery/**/*.py"), *root.glob("render/**/*.py")]:
         name = path.relative_to(root).as_posix()
         if name.startswith(tuple(ROUNDED_OFF)):
@@ -124,7 +124,7 @@ EXACT_PRODUCTS = {
 
 
 def test_sources_use_no_other_matrix_products() -> None:
-    root = Path(__file__).parents[1]
+    root = Path(__file__).parents[2]
     found = {}
     for path in [*root.glob("drapery/**/*.py"), *root.glob("render/**/*.py")]:
         nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-STUDIO = Path(__file__).parent.parent / "drapery" / "studio"
+STUDIO = Path(__file__).parents[2] / "drapery" / "studio"
 SOURCES = sorted(STUDIO.rglob("*.py"))
 BUILT_ANEW = {
     ("document.py", "self._at_close"): "functions, no elements",

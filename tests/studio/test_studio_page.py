@@ -30,7 +30,7 @@ from drapery.banner.design import Banner
 from drapery.banner.formats import write_banner
 from drapery.pictures import draw_face
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 CONTRAST = (HERE / "page_contrast.js").read_text()
 NAMELESS = (HERE / "page_names.js").read_text()
 

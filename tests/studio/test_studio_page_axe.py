@@ -11,7 +11,7 @@ import pytest
 from pack_maker import BANNER, META, mcmeta, noise, png, zip_pack
 from studio_browser import WIDE, Studio, open_page, resize, wait_until
 
-AXE = Path(__file__).parent / "js" / "node_modules" / "axe-core" / "axe.min.js"
+AXE = Path(__file__).parents[1] / "js" / "node_modules" / "axe-core" / "axe.min.js"
 PAGES = [(320, True)]
 if os.environ.get("DRAPERY_STUDIO_AXE") == "all":
     PAGES = [(width, dark) for width in (320, 768, 1280) for dark in (False, True)]

@@ -55,7 +55,7 @@ def test_a_preset_is_what_its_description_says(name: str, tmp_path: Path) -> Non
 
 @pytest.mark.parametrize("name", PRESETS)
 def test_the_gallery_shows_a_preset_with_its_file(name: str) -> None:
-    docs = Path(__file__).parent.parent / "docs"
+    docs = Path(__file__).parents[2] / "docs"
     text = (files("drapery.styles") / "presets" / f"{name}.toml").read_text(encoding="utf-8")
     assert f"```toml\n{text}```" in (docs / "reference" / "style-gallery.md").read_text("utf-8")
     assert (docs / "pictures" / "styles" / f"{name}.png").is_file()
@@ -415,7 +415,7 @@ def test_a_package_adds_a_style(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 
 
 def test_the_page_on_styles_names_everything_and_its_file_loads(tmp_path: Path) -> None:
-    text = (Path(__file__).parent.parent / "docs" / "guides" / "styles.md").read_text("utf-8")
+    text = (Path(__file__).parents[2] / "docs" / "guides" / "styles.md").read_text("utf-8")
     for name in (*PRESETS, *(name for _, name in ALL_STEPS)):
         assert f"`{name}`" in text
     blocks = re.findall(r"```(\w+)\n(.*?)```", text, re.DOTALL)

@@ -13,7 +13,7 @@ from PIL import Image
 from drapery.banner.packs import open_packs
 from release.build import MAX_WHEEL, size_of_sources
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 
 PROJECT_TEST = """
 from drapery import Banner, draw

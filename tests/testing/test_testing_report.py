@@ -17,7 +17,7 @@ from drapery.render import Frame
 from drapery.testing import GoldenUpdate, accept_failures, keep_failure, markdown_report
 from drapery.testing.failures import read_approvals
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 TEXTURE = "pack/assets/minecraft/textures/entity/banner/creeper.png"
 pytest_plugins = ["pytester"]
 

@@ -14,7 +14,7 @@ from drapery.render.materials import make_material_tables
 from drapery.render.scene import Alpha, Material, TextureLayer
 from drapery.web.messages import pack
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 VIEWER = HERE.parent / "drapery" / "web" / "viewer"
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")

@@ -29,7 +29,7 @@ from drapery.settings import Settings
 from drapery.web import page
 from drapery.web.page import write_component, write_page
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 NO_WEBGL = """
 const get = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...more) {

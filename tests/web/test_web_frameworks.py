@@ -22,8 +22,8 @@ from drapery.web import page
 from drapery.web.gallery import ITEMS, gallery_text
 from drapery.web.page import write_component, write_page
 
-EXAMPLES = Path(__file__).parent.parent / "examples" / "web"
-MODULES = Path(__file__).parent / "js" / "node_modules"
+EXAMPLES = Path(__file__).parents[2] / "examples" / "web"
+MODULES = Path(__file__).parents[1] / "js" / "node_modules"
 AXE = MODULES / "axe-core" / "axe.min.js"
 BUNDLED = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Example</title>
 <body><script type="module" src="drapery-banner/NAME.js"></script></body></html>

@@ -26,7 +26,7 @@ from drapery.web.wasm.module import module_info
 from drapery.web.wasm.plan import LANES, write_plan
 
 MIDDLE = np.array([0.5, 0.0, 0.5])
-TEXTURES = Path(__file__).parent.parent / "drapery" / "web" / "component" / "textures.js"
+TEXTURES = Path(__file__).parents[2] / "drapery" / "web" / "component" / "textures.js"
 
 
 def player(wear: str = "cape", **fields: Any) -> Garment:

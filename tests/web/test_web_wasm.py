@@ -28,7 +28,7 @@ from drapery.web.wasm.module import module_info
 from drapery.web.wasm.plan import LANES, plans_of, split_plan, write_plan
 
 NODE = shutil.which("node")
-SCRIPT = Path(__file__).parent.parent / "drapery" / "web" / "wasm" / "cloth.js"
+SCRIPT = Path(__file__).parents[2] / "drapery" / "web" / "wasm" / "cloth.js"
 
 
 def plan_of(settings: Settings) -> bytes:
