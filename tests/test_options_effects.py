@@ -131,7 +131,7 @@ SHOWN = {
         player_of(PlayerSettings(wear=("cape",), motion="stand")),
         {},
         {"samples": 1},
-        OWN,
+        OWN | {"finish": "the fabric of its cape is no preset, so it is plain"},
     ),
 }
 OUTPUTS: tuple[Output, ...] = ("still", "loop", "model")
