@@ -180,6 +180,27 @@ def test_properties_and_methods_take_every_form(chromium: Any, site: str) -> Non
     assert "unknown dye" in run(chromium, thrown % HOST)
 
 
+def test_a_page_without_a_clipboard_copies_too(chromium: Any, site: str) -> None:
+    open_designer(chromium, f"{site}/#red")
+    chromium.execute_script("Object.defineProperty(navigator, 'clipboard', { value: undefined });")
+    field = f"{ROOT}.querySelector('.command').value"
+    command = run(chromium, field)
+    link = ".side .row + .command + .hint + .row button"
+    run(chromium, f"{ROOT}.querySelector('{link}')").click()  # pages copy only for a user
+    status = f"{ROOT}.querySelector('.status').textContent"
+    wait_until(lambda: run(chromium, status) == "Copied")
+    assert run(chromium, field) == command
+
+
+def test_layers_are_dragged(chromium: Any, site: str) -> None:
+    open_designer(chromium, f"{site}/#white,creeper:lime,border:black,skull:red")
+    grip = run(chromium, f"{ROOT}.querySelector('.grip')")  # of the skull
+    high = run(chromium, f"{ROOT}.querySelector('li').getBoundingClientRect().height")
+    chain = ActionChains(chromium).move_to_element(grip).click_and_hold()
+    chain.move_by_offset(0, int(1.2 * high)).release().perform()
+    assert design(chromium) == "white creeper:lime skull:red border:black"
+
+
 def test_random_designs_have_no_layer_that_is_not_seen(chromium: Any, site: str) -> None:
     open_designer(chromium, site)
     seen = set()

@@ -378,7 +378,7 @@ export class DraperyDesigner extends HTMLElement {
     const wrong = make("p", { class: "fault", id: "paste-fault", role: "alert", hidden: true });
     const read = make("button", { type: "button", onclick: () => this.#read(field.value) }, say("read"));
     Object.assign(this.#ui, { count, empty, version, command, about, copy, field, wrong });
-    return make("section", { class: "side" },
+    return make("section", { class: "side", "aria-label": `${say("layers")}, ${say("share")}` },
       make("div", { class: "panel" }, make("div", { class: "head" }, make("h2", {}, say("layers")), count), empty, layers.list),
       make("div", { class: "panel" }, make("h2", {}, say("share")),
         make("div", { class: "row" }, version, copy), command, about,
@@ -510,7 +510,9 @@ export class DraperyDesigner extends HTMLElement {
       command.value = text;
       command.focus();
       command.select();
-      this.#tell(this.#say(document.execCommand("copy") ? "copied" : "copyFailed"));
+      const isCopied = document.execCommand("copy");
+      this.#tell(this.#say(isCopied ? "copied" : "copyFailed"));
+      if (isCopied) this.#showCommand();
     }
   }
 

@@ -47,7 +47,7 @@ export class LayerList {
       onclick: () => acts.select(isChosen ? null : at),
       onkeydown: (/** @type {KeyboardEvent} */ event) => this.press(event, at),
     }, canvas, make("span", { class: "layer-name" }, make("b", {}, plain), make("small", {}, heraldic ? `${titles.dye(layer.dye)} · ${heraldic}` : titles.dye(layer.dye))));
-    button.setAttribute("aria-label", layer.hidden ? `${title} (${say("hide")})` : title);
+    if (layer.hidden) button.append(make("span", { class: "unseen" }, `(${say("hide")})`));
     const grip = make("span", { class: "grip", title: say("move", { number: at + 1 }), onpointerdown: (/** @type {PointerEvent} */ event) => this.drag(event, at) }, icon("grip"));
     const hide = iconButton(layer.hidden ? "hidden" : "eye", `${say(layer.hidden ? "show" : "hide")}: ${title}`, () => acts.hide(at), { class: "icon hide", "aria-pressed": String(Boolean(layer.hidden)) });
     const double = iconButton("double", `${say("duplicate")}: ${title}`, () => acts.double(at), { class: "icon double" });
