@@ -34,6 +34,7 @@ SEVERAL = {
     "drapery/batch/report.py": {"counts.drawn / seconds"},  # a rate
     "drapery/batch/rows.py": {"len(cells)"},  # more than the columns
     "drapery/cloth/colliders/shapes.py": {"shape[-1]"},
+    "drapery/commands/animate.py": {"fitted.fps"},  # a rate
     "drapery/comparison/limit_values.py": {"len(frames)"},  # of a loop
     "drapery/comparison/picture.py": {"plays"},  # 1 is said as once
     "drapery/picture_file.py": {"max_side"},
