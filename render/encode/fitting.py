@@ -4,6 +4,7 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from shutil import copyfile
 from types import MappingProxyType
 
 from drapery.errors import OptionError, shown
@@ -81,7 +82,7 @@ def save_for(
             length = trial.stat().st_size
             if length < limits.max_bytes:
                 with replacing(Path(path)) as unfinished:
-                    unfinished.write_bytes(trial.read_bytes())
+                    copyfile(trial, unfinished)
                 return FittedLoop(wide, rate, at, length)
             expected = length / weight
     raise OptionError(
