@@ -15,10 +15,9 @@ from drapery.render.pixels import HasPixels
 
 RATES = (20.0, 15.0, 12.0)
 """Frames/s that are tried, the best first. GIF shows all of them exactly or nearly so."""
-QUALITIES: tuple[int | None, ...] = (None, 90, 75, 60)
-"""Qualities that are tried, the best first."""
-SHARES = MappingProxyType({None: 1.0, 90: 0.22, 75: 0.14, 60: 0.11})
-"""Bytes of a loop of a quality over those without loss, measured on the default banner."""
+QUALITIES = MappingProxyType({None: 1.0, 90: 0.22, 75: 0.14, 60: 0.11})
+"""Qualities that are tried, the best first: bytes of a loop over those without loss, measured on
+the default banner."""
 SHRINK = 0.84
 """Each smaller picture has this share of the width and height of the one before."""
 LEAST = 48
@@ -123,7 +122,7 @@ def _sizes(most: tuple[int, int], shape: tuple[int, int]) -> Iterator[tuple[int,
 def _weight(chosen: tuple[tuple[int, int], float, int | None], seconds: float) -> float:
     """Pixels of all frames, over how much smaller their quality makes them."""
     (width, height), rate, quality = chosen
-    return width * height * rate * seconds * SHARES.get(quality, 1.0)
+    return width * height * rate * seconds * QUALITIES.get(quality, 1.0)
 
 
 def _remedy(size: tuple[int, int] | None, fps: float | None, quality: int | None) -> str:
@@ -132,4 +131,4 @@ def _remedy(size: tuple[int, int] | None, fps: float | None, quality: int | None
         for name, value in (("size", size), ("fps", fps), ("quality", quality))
         if value is not None
     ]
-    return f"leave out {', '.join(given)}, or use fewer seconds" if given else ("use fewer seconds")
+    return f"leave out {', '.join(given)}, or use fewer seconds" if given else "use fewer seconds"

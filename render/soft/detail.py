@@ -247,22 +247,25 @@ def add_gloss(row: Any, tint: Any, shine: Any, seen: Any, colours: Any) -> Any:
     shine: see `add_detail`; it is filled with 0 for the next row. All else: see `_light_row` of
     `tiles`.
     """
-    full = np.int64(255)
-    red = full * np.int64(tint[0]) >> LIGHT_BITS
-    green = full * np.int64(tint[1]) >> LIGHT_BITS
-    blue = full * np.int64(tint[2]) >> LIGHT_BITS
     for x in range(TILE):
         share = np.int64(shine[np.uint64(x)])
         shine[np.uint64(x)] = 0
         if share > 0 and seen[np.uint64(row * STRIDE + x)] != 0:
-            colour = np.int64(colours[np.uint64(row * TILE + x)])
-            r = _lighter(colour & 255, red, share)
-            g = _lighter((colour >> 8) & 255, green, share)
-            b = _lighter((colour >> 16) & 255, blue, share)
-            colours[np.uint64(row * TILE + x)] = colour & OPAQUE_BITS | b << 16 | g << 8 | r
+            at = np.uint64(row * TILE + x)
+            colours[at] = glossy(np.int64(colours[at]), tint, share)
 
 
 @kernel
-def _lighter(value: Any, full: Any, share: Any) -> Any:
-    """A channel of a colour after a share of the light is laid over it."""
+def glossy(colour: Any, tint: Any, share: Any) -> Any:
+    """A colour with a share of the light laid over it; its alpha stays. share: see `add_detail`."""
+    red = _lighter(colour & 255, tint[0], share)
+    green = _lighter((colour >> 8) & 255, tint[1], share)
+    blue = _lighter((colour >> 16) & 255, tint[2], share)
+    return colour & OPAQUE_BITS | blue << 16 | green << 8 | red
+
+
+@kernel
+def _lighter(value: Any, tint: Any, share: Any) -> Any:
+    """A channel of a colour with a share of the light laid over it."""
+    full = 255 * np.int64(tint) >> LIGHT_BITS
     return value + (max(full - value, 0) * share >> GLOSS_BITS)

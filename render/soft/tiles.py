@@ -18,7 +18,7 @@ from drapery.render.soft.blending import (
 )
 from drapery.render.soft.cast import cast_shadows
 from drapery.render.soft.coverage import BLEND, LAYER, cover_tile
-from drapery.render.soft.detail import add_detail, add_gloss
+from drapery.render.soft.detail import add_detail, add_gloss, glossy
 from drapery.render.soft.triangle_setup import SETUP, SLOTS, set_up, texels_of, weights_of
 
 
@@ -106,12 +106,27 @@ def _light_row(row: Any, shown: Any, light: Any, tint: Any, seen: Any, colours: 
 
 @kernel
 def _blend_row(
-    row: Any, left: Any, right: Any, shown: Any, light: Any, tint: Any, seen: Any, colours: Any
+    row: Any,
+    left: Any,
+    right: Any,
+    shown: Any,
+    light: Any,
+    shine: Any,
+    tint: Any,
+    seen: Any,
+    colours: Any,
 ) -> Any:
-    """Lay the samples left..right of a triangle that blends over the colours of a row."""
+    """Lay the samples left..right of a triangle that blends over the colours of a row.
+
+    shine: their gloss, see `add_detail`; it is filled with 0 for the next row.
+    """
     for x in range(left, right + 1):
+        share = np.int64(shine[x])
+        shine[x] = 0
         if seen[LAYER + row * STRIDE + x]:
             colour = np.int64(lit(shown[x], light[x], factors_of(light[x], tint)))
+            if share > 0:
+                colour = glossy(colour, tint, share)
             colours[row * TILE + x] = lay_over(colour, np.int64(colours[row * TILE + x]))
 
 
@@ -207,7 +222,7 @@ def _shade_tile(
                 weights = wa, wb, wc, setup.da, setup.db, setup.dc
                 add_detail(t, x, count, lines, weights, mesh, details, grid, setup, light, shine)
         if layer:
-            _blend_row(row, left, right, shown, light, tint, keys, colours)
+            _blend_row(row, left, right, shown, light, shine, tint, keys, colours)
         else:
             _light_row(row, shown, light, tint, keys, colours)
             if is_detailed:

@@ -110,6 +110,27 @@ def test_one_and_two_threads_draw_the_same_bits(samples: Any) -> None:
     assert np.array_equal(one, two)
 
 
+def test_gloss_of_translucent_cloth_stays_on_it_and_is_smooth() -> None:
+    """Tiles have 64 samples a side: what is left of one row may not show in the next tile."""
+    tile = np.full((4, 4, 4), (128, 128, 128, 255), np.uint8)
+    shiny = SurfaceDetail(tile, (4.0, 4.0), gloss=1.0, sharpness=0)
+    glass = Material((TextureLayer(np.full((1, 1, 4), (200, 40, 40, 120), np.uint8)),), "blend")
+    square = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    halves = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
+    back = Model(make_mesh(square, halves), (Material((TextureLayer(GREY),)),))
+    uvs = np.array([[0.0, 1], [1, 1], [1, 0], [0, 0]])
+    over = replace(make_mesh(square * [0.5, 1, 1] + [-0.5, 0, 0.1], halves), uvs=uvs)
+    camera = Camera((0, 0, 5), (0, 0, 0), height=2.0)
+    drawn = [
+        draw_scene(Scene((back, Model(over, (each,))), camera, (256, 256), LIGHT)).pixels
+        for each in (glass, replace(glass, detail=shiny))
+    ]
+    plain, glossy = (np.int16(each) for each in drawn)
+    assert np.array_equal(plain[:, 128:], glossy[:, 128:])
+    assert (glossy[:, :128, :3] > plain[:, :128, :3] + 5).all()
+    assert len(np.unique(glossy[:, :128].reshape(-1, 4), axis=0)) == 1
+
+
 def test_triangles_beyond_the_camera_change_no_others() -> None:
     """Some triangles are clipped: the others keep how they lean, and so do new corners."""
     scene = sheet("silk", 128)
