@@ -10,6 +10,7 @@ from urllib.parse import quote
 
 from fastapi import FastAPI, HTTPException, Query, Request, Response
 from fastapi.responses import FileResponse, JSONResponse
+from starlette.requests import ClientDisconnect
 
 from drapery import DesignError, DraperyError
 from drapery.banner import parse_banner
@@ -141,6 +142,8 @@ def _add_uploads(app: FastAPI, session_of: SessionOf) -> None:
             return _refusal(error.detail, error.status_code)
         except DraperyError as error:
             return _refusal(str(error), 413)
+        except ClientDisconnect:
+            return _refusal("the file was not sent whole; send it again", 400)
         except OSError as error:
             return _refusal(f"the file cannot be stored: {error.strerror}", 507)
         return JSONResponse({"number": upload.number})

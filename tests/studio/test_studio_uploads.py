@@ -8,9 +8,11 @@ import zipfile
 from collections.abc import AsyncIterator, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from fastapi import FastAPI
 from pack_maker import BANNER, CREEPER, META, mcmeta, plain, png, red, zip_pack
 
 from drapery.banner.design import Banner
@@ -18,7 +20,8 @@ from drapery.errors import DesignError, DraperyError, PackError
 from drapery.settings import Settings
 from drapery.studio import uploads as module
 from drapery.studio.pack_store import PackStore
-from drapery.studio.session import Session
+from drapery.studio.routes import add_routes
+from drapery.studio.session import Session, Sessions, StudioConfig
 from drapery.studio.uploads import Purpose, Upload, shown_name
 from drapery.studio.warning_log import collected_warnings
 
@@ -42,6 +45,28 @@ def send(session: Session, data: bytes, name: str = "a.zip", purpose: str = "pac
 def packed(tmp_path: Path, *reds: int) -> bytes:
     files = {META: mcmeta(), CREEPER: plain(reds[0], 0, 0, 255)}
     return zip_pack(tmp_path / "made.zip", files).read_bytes()
+
+
+def test_a_file_whose_sender_leaves_is_refused_in_one_line_and_leaves_nothing() -> None:
+    """An upload that was stopped ended in a traceback of the server."""
+    app, sessions = FastAPI(), Sessions(StudioConfig())
+    add_routes(app, sessions)
+    session = sessions.open()
+    parts = [{"type": "http.request", "body": b"x" * 100, "more_body": True}]
+    sent: list[dict[str, Any]] = []
+
+    async def receive() -> dict[str, Any]:
+        return parts.pop(0) if parts else {"type": "http.disconnect"}
+
+    async def send(message: Any) -> None:
+        sent.append(message)
+
+    path = f"/upload/{session.token}/pack"
+    scope = {"type": "http", "method": "POST", "path": path, "query_string": b"name=a.zip"}
+    asyncio.run(app({**scope, "headers": []}, receive, send))
+    assert sent[0]["status"] == 400 and b"not sent whole; send it again" in sent[1]["body"]
+    assert [*session.folder.iterdir()] == []
+    sessions.close_all()
 
 
 def test_what_comes_lies_in_the_sessions_folder(session: Session) -> None:
