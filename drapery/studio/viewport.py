@@ -75,7 +75,8 @@ class Viewport:
     request: what it shows. version: grows with every visible change. fault: why the last change
     failed, or "". note: a line about work that takes long, or "". size: width and height of the
     viewer [pixels]. viewers: the number of connected viewers, including hidden ones. paused_at: the
-    `time` that the last pause has set, or None. closed: whether its tab is closed.
+    `time` that the last pause has set, or None. banner_options: the options of the banner that a
+    garment's replace while it is shown. closed: whether its tab is closed.
     """
 
     def __init__(self, document: Document, packs: PackStore) -> None:
@@ -86,6 +87,7 @@ class Viewport:
         self.size = (640, 480)
         self.viewers = 0
         self.paused_at: float | None = None
+        self.banner_options: dict[str, Any] = {}
         self.closed = False
         self._document = document
         self._pack_store = packs

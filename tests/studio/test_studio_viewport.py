@@ -15,8 +15,9 @@ import pytest
 from drapery.garments import find_garment
 from drapery.packs import open_packs
 from drapery.scenes import Clip, Picture
+from drapery.settings import Settings
 from drapery.studio.live_threads import THREADS, in_thread
-from drapery.studio.panels.live import wear
+from drapery.studio.panels.live import show_scene, wear
 from drapery.studio.player import Player, Show, garment_show
 from drapery.studio.session import Session
 from drapery.studio.sketch import Sketch
@@ -78,6 +79,31 @@ def test_a_garment_is_shown_at_rest_and_then_moves(session: Session) -> None:
     viewport.turn(0)
     shown = viewport.shown()
     assert shown is not None and shown.live
+
+
+@pytest.mark.parametrize("scene", [None, "fold"])
+def test_a_garment_that_is_left_gives_back_the_options_of_the_banner(scene: str | None) -> None:
+    session = Session(Settings(wind=3, view="iso", placement="wall", facing="east"))
+    before = session.settings
+    wear(session, "flag")
+    wear(session, "cape", "traveller")
+    assert session.settings.view != "iso"
+    session.adjust(wind=9)
+    show_scene(session, scene)
+    assert session.settings == before
+    session.adjust(wind=9)
+    show_scene(session, None)
+    assert session.settings.wind == 9
+    session.close()
+
+
+def test_a_shield_comes_back_from_a_garment_without_the_wall_of_its_banner() -> None:
+    session = Session(Settings(placement="wall", facing="east"))
+    wear(session, "flag")
+    session.selection.switch_kind()
+    wear(session, None)
+    assert session.settings.placement == "standing" and session.settings.facing is None
+    session.close()
 
 
 def test_the_loop_of_a_garment_follows_its_first_picture() -> None:

@@ -53,9 +53,6 @@ def build(session: Session) -> None:
     def pause() -> None:
         viewport.update(paused=not viewport.request.paused)
 
-    def choose_scene(name: str) -> None:
-        viewport.update(scene=name or None, garment=None, skin=None)
-
     with ui.element("div").classes("live"):
         ViewerElement(session).classes("live-view")
         with ui.element("div").classes("live-bar"):
@@ -64,7 +61,10 @@ def build(session: Session) -> None:
             paused = button("Pause", pause, icon="pause")
             button("Back to rest", viewport.reset, icon="restart_alt")
             scenes = fields.choice(
-                "Scene", {"": OWN}, lambda: viewport.request.scene or "", choose_scene
+                "Scene",
+                {"": OWN},
+                lambda: viewport.request.scene or "",
+                lambda name: show_scene(session, name or None),
             )
             garments = fields.choice(
                 "Garment",
@@ -123,15 +123,34 @@ def build(session: Session) -> None:
 def wear(session: Session, garment: str | None, skin: str | None = None) -> None:
     """Show a garment, or the player of a skin, in the wind and view of its file.
 
-    None for both shows the banner again.
+    None for both shows the banner again, with the options that it had before.
     """
-    banner = banner_of(session.sketch)
-    found = drawn_garment(ExportRequest(banner, session.settings, garment=garment, skin=skin))
-    if found is not None:
+    banner, settings = banner_of(session.sketch), session.settings
+    found = drawn_garment(ExportRequest(banner, settings, garment=garment, skin=skin))
+    if found is None:
+        _give_back(session)
+    else:
         own = found.settings()
         seen = {option: getattr(own, option) for option in SEEN}
-        session.adjust(placement="standing", facing=None, **{**seen, **found.picture})
+        changed = {"placement": "standing", "facing": None, **seen, **found.picture}
+        before = {name: settings.as_given(name) for name in changed}
+        session.adjust(**changed)
+        session.viewport.banner_options = before | session.viewport.banner_options
     session.viewport.update(scene=None, garment=garment, skin=skin)
+
+
+def show_scene(session: Session, name: str | None) -> None:
+    """Show a scene; None shows the banner again."""
+    _give_back(session)
+    session.viewport.update(scene=name, garment=None, skin=None)
+
+
+def _give_back(session: Session) -> None:
+    """Set the options again that the banner had before a garment was shown."""
+    options, session.viewport.banner_options = session.viewport.banner_options, {}
+    if options and session.sketch.kind == "shield":  # it is not on a wall
+        options |= {"placement": "standing", "facing": None}
+    session.adjust(**options)
 
 
 def _skins(session: Session) -> dict[str, str]:
