@@ -19,6 +19,7 @@ import numpy as np
 from drapery.jit import entry_point, kernel
 from drapery.render.soft.bins import ID_BITS, ID_MASK, LANES, STRIDE, TILE, TILE_BITS
 from drapery.render.soft.projection import NEAREST
+from drapery.render.soft.triangle_setup import texels_of
 
 KEY_BITS = 31
 KEY_SCALE = 1 << KEY_BITS
@@ -118,6 +119,15 @@ def cover_tile(
                     ab, bc, ca = ab + right_ab, bc + right_bc, ca + right_ca
                     depth += step_right
                 continue
+            layer = materials[triangle_material[t], 0]
+            across, down = layers[layer, 2], layers[layer, 3]
+            a, b, c = (
+                vertices[triangles[t, 0]],
+                vertices[triangles[t, 1]],
+                vertices[triangles[t, 2]],
+            )
+            i_low, i_high = texels_of(a.u, b.u, c.u, across)
+            j_low, j_high = texels_of(a.v, b.v, c.v, down)
             for k in range(count):
                 at = np.uint64(start + k)
                 outside = (ab + k * right_ab) | (bc + k * right_bc) | (ca + k * right_ca)
@@ -126,10 +136,9 @@ def cover_tile(
                     shown = outside >= 0 and key | ID_MASK >= keys[at]
                     keys[at + np.uint64(LAYER)] = key if shown else np.int64(0)
                 elif outside >= 0 and key > keys[at]:
-                    layer = materials[triangle_material[t], 0]
                     u, v = _uv_at(t, x0 + left + k, y0 + row, vertices, triangles)
-                    i = min(max(np.int64(u * layers[layer, 2]), 0), layers[layer, 2] - 1)
-                    j = min(max(np.int64(v * layers[layer, 3]), 0), layers[layer, 3] - 1)
+                    i = min(max(np.int64(u * across), i_low), i_high)
+                    j = min(max(np.int64(v * down), j_low), j_high)
                     if atlas[(layers[layer, 1] + j) * wide + layers[layer, 0] + i] >> 31:
                         keys[at] = key
     return edge_left, edge_right, edge_top, edge_bottom

@@ -1,5 +1,7 @@
 """Texels and colours: exact places, exact arithmetic."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from render_shapes import FACING, mesh, noise, plain, quad
@@ -21,6 +23,10 @@ def drawn(*materials: Material, size: tuple[int, int] = (64, 64), **options: obj
     )
     scene = Scene(models, FACING, size, **{"light": UNLIT, **options})  # type: ignore[arg-type]
     return draw_scene(scene).pixels
+
+
+def drawn_mesh(surface: Any, material: Material) -> np.ndarray:
+    return draw_scene(Scene((Model(surface, (material,)),), FACING, (64, 64), UNLIT)).pixels
 
 
 def opaque(texels: np.ndarray) -> np.ndarray:
@@ -93,6 +99,30 @@ def test_a_region_never_shows_its_neighbours() -> None:
             camera = Camera(tuple(position), (0, 0, 0), fov=50)  # type: ignore[arg-type]
             pixels = draw_scene(Scene((flag,), camera, (80, 80), UNLIT)).pixels
             assert not pixels[..., 1].any()
+
+
+@pytest.mark.parametrize("rows", [16, 17, 41, 64])
+def test_a_cut_out_region_ends_where_an_opaque_one_does(rows: int) -> None:
+    """Its edges run through the centres of pixels, and transparent texels lie around it."""
+    sheet = np.zeros((rows + 2, 33, 4), np.uint8)
+    sheet[1:-1, 1:21] = (255, 0, 0, 255)
+    u, v = np.array([1, 21]) / 33, np.array([1, rows + 1]) / (rows + 2)
+    edge = 31 / 32 - np.arange(0, 12, 4) / 32
+    seen = {}
+    for alpha in ("opaque", "cutout"):
+        material = Material((TextureLayer(sheet),), alpha=alpha)  # type: ignore[arg-type]
+        seen[alpha] = [
+            drawn_mesh(
+                mesh(
+                    [(-e, e, 0), (e, e, 0), (-e, -e, 0), (e, -e, 0)],
+                    [(0, 2, 1), (1, 2, 3)],
+                    [(u[0], v[0]), (u[1], v[0]), (u[0], v[1]), (u[1], v[1])],
+                ),
+                material,
+            )
+            for e in edge + 1 / 64
+        ]
+    assert np.array_equal(seen["cutout"], seen["opaque"])
 
 
 def test_every_tint_of_every_texel_is_exact() -> None:
