@@ -22,7 +22,7 @@ from benchmarks.quick import add_quick, needs
 from benchmarks.web_page import FLAGS, SETTINGS
 from drapery import Settings
 from drapery.web.designer_page import write_designer
-from drapery.web.wasm.module import module_places
+from drapery.web.wasm.module import is_module_built
 
 LATER = ("-still.bin", "wall.bin", ".d.ts")
 """The endings of files that a page loads only when they are wanted, or never."""
@@ -73,7 +73,7 @@ def main() -> int:
     add_quick(parser)
     quick = parser.parse_args().quick
     needs(which("chromium") and which("chromedriver"), "Chromium or its driver")
-    needs(any(path.is_file() for path in module_places()), "The module of `drapery.web.wasm.build`")
+    needs(is_module_built(), "The module of `drapery.web.wasm.build`")
     settings = Settings(**SETTINGS) if quick else Settings(size=(320, 480))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -23,7 +23,7 @@ from benchmarks.quick import add_quick, needs
 from benchmarks.web import whole_module
 from drapery import Banner, Settings
 from drapery.web.page import page_text
-from drapery.web.wasm.module import module_places
+from drapery.web.wasm.module import is_module_built
 
 BANNERS = 20
 SECONDS = 10.0
@@ -87,7 +87,7 @@ def main() -> int:
     banners, seconds = (2, 0.5) if quick else (BANNERS, SECONDS)
     if quick and find_spec("ziglang"):
         whole_module(quick)  # pages find it beside numba's kernels
-    needs(any(path.is_file() for path in module_places()), "The module of `drapery.web.wasm.build`")
+    needs(is_module_built(), "The module of `drapery.web.wasm.build`")
     settings = Settings(**SETTINGS)
     text = page_text(Banner.parse("white creeper:lime border:black"), settings)
     print(f"page: {len(text)} bytes, gzipped {len(gzip.compress(text.encode()))}")

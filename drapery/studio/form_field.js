@@ -8,6 +8,7 @@ export default {
       <option v-for="[name, title] in choices" :key="name" :value="name">{{ title }}</option>
     </select>
     <input v-else-if="kind === 'range'" type="range" @input="send">
+    <input v-else-if="kind === 'number'" inputmode="decimal" @input="type" @change="send" @blur="leave">
     <input v-else :type="kind" @input="type" @change="send" @blur="leave">`,
   props: { kind: String, shown: Object, choices: Array },
   emits: ["value"],

@@ -105,6 +105,7 @@ def build(session: Session, sessions: Sessions) -> None:
     with ui.element("div").classes("studio").props(f'data-token="{session.token}"') as root:
         session.language = root.props["data-language"] = language()
         root.props["data-copied"] = translated("Copied")
+        root.props["data-lost"] = translated("The connection is lost. Trying again …")
         root.props["data-drop"] = translated("Drop it to read its banners")
         with ui.element("header").classes("bar"):
             bar.build(session)

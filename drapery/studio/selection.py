@@ -140,12 +140,13 @@ class Selection:
             place = edits.place_of(self._document.sketch, self.chosen)
             self.act(what, self.chosen, place + step)
 
-    def lay_out(self, sketch: Sketch, *, same: bool = False) -> None:
+    def lay_out(self, sketch: Sketch, *, same: bool = False, chosen: Chosen = None) -> None:
         """Replace the design; this can be undone.
 
         same: whether it is still the same design, such as after layers without effect are removed.
+        chosen: what a dye applies to then.
         """
-        self.chosen, self.swaps = None, False
+        self.chosen, self.swaps = chosen, False
         origin = self._document.sketch.origin if same else secrets.randbits(48)
         self._edit(replace(sketch, origin=origin))
         self.notify()

@@ -215,9 +215,17 @@ function resume() {
   const waiting = setInterval(() => {
     if (!studio.ready) return;
     clearInterval(waiting);
+    followConnection();
     if (earlier) root().dispatchEvent(new CustomEvent("resume", { detail: earlier }));
     root().dispatchEvent(new CustomEvent("recent", { detail: recent().map((each) => each.link) }));
   }, 30);
+}
+
+// Without the connection nothing can be edited: the server would not hear of it.
+function followConnection() {
+  const [line, more] = document.querySelectorAll("#popup span");
+  [line.textContent, more.textContent] = [root().dataset.lost, ""];
+  for (const event of ["connect", "disconnect"]) window.socket.on(event, () => (root().inert = event === "disconnect"));
 }
 
 // A text pasted into the text field is read at once; Ctrl+Enter reads it too.

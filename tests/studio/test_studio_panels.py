@@ -1,7 +1,7 @@
 """The panels of the page in German, built without a browser."""
 
 import asyncio
-from collections.abc import Callable, Coroutine
+from collections.abc import AsyncIterator, Callable, Coroutine
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -11,21 +11,22 @@ from fastapi import Request
 from nicegui import Client, core, ui
 from nicegui.element import Element
 from nicegui.page import page
-from pack_maker import META, mcmeta, plain, zip_pack
+from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
 
 from drapery import Banner, Settings
 from drapery.errors import PackError
 from drapery.studio.design_buttons import DesignButton
 from drapery.studio.exports import Export, ExportRequest
+from drapery.studio.file_field import FileField
 from drapery.studio.library import Library
 from drapery.studio.pack_store import PackStore
-from drapery.studio.panels import export, file_options, letters, motion, packs, start, steps
+from drapery.studio.panels import bar, export, file_options, letters, motion, packs, start, steps
 from drapery.studio.panels.file_options import FileChoice
 from drapery.studio.panels.library import LibraryPanel
 from drapery.studio.records import Design
 from drapery.studio.session import Session, Sessions, StudioConfig
 from drapery.studio.sketch import sketch_of
-from drapery.studio.snippets import KINDS, option_names
+from drapery.studio.snippets import KINDS, option_names, plain as plain_number
 
 SCOPE = {
     **{"type": "http", "method": "GET", "path": "/", "scheme": "http", "query_string": b""},
@@ -133,6 +134,36 @@ def test_a_pack_that_cannot_be_switched_on_is_shown_as_it_is(
     in_page(build, Settings(packs=(pack,)))
 
 
+@pytest.mark.parametrize(
+    ("files", "tone"), [({}, "warning"), ({CREEPER: plain(9, 0, 0, 255)}, "done")]
+)
+def test_a_pack_without_a_texture_gets_a_warning(
+    files: dict[str, bytes],
+    tone: str,
+    in_page: Callable[..., None],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    async def data() -> AsyncIterator[bytes]:
+        yield zip_pack(tmp_path / "pack.zip", {META: mcmeta(), **files}).read_bytes()
+
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            packs.build(session)
+        upload = await session.uploads.receive(data(), "pack", "empty.zip")
+        (field,) = [e for e in client.elements.values() if isinstance(e, FileField)]
+        for listener in field._event_listeners.values():
+            field._handle_event({"listener_id": listener.id, "args": {"number": upload.number}})
+        while not said:
+            await asyncio.sleep(0.01)
+        line, shown = said[0]
+        assert "empty.zip" in line and shown == tone
+
+    said: list[tuple[str, str]] = []
+    monkeypatch.setattr(packs, "show_notice", lambda line, tone="done": said.append((line, tone)))
+    in_page(build)
+
+
 def test_an_item_has_no_turntable(in_page: Callable[..., None]) -> None:
     async def build(client: Client, session: Session) -> None:
         with client:
@@ -153,6 +184,109 @@ def test_an_item_has_no_turntable(in_page: Callable[..., None]) -> None:
         fit()
         assert not group.visible
 
+    in_page(build)
+
+
+def field_of(client: Client, label: str) -> Element:
+    """The field with this label, in German."""
+    (text,) = [e for e in client.elements.values() if getattr(e, "text", "") == label]
+    return next(e for e in text.parent_slot.children if "kind" in e.props)
+
+
+TYPED = [
+    ("Breite", "300,0", 300),
+    ("Breite", " 300 ", 300),
+    ("Breite", "", 512),
+    ("Breite", "2.5", "is not a whole number"),
+    ("Breite", "-5", "is out of range; use"),
+    ("Sekunden", "2,5", 2.5),
+    ("Sekunden", "-5", "seconds -5 is out of range; use"),
+    ("Sekunden", "1e9", "seconds 1e+09 is out of range; use"),
+    ("Sekunden", "ten", "seconds 'ten' is not a number; use"),
+]
+
+
+@pytest.mark.parametrize(("label", "text", "taken"), TYPED)
+def test_a_typed_number_is_taken_with_a_comma_and_refused_at_once(
+    label: str,
+    text: str,
+    taken: float | str,
+    in_page: Callable[..., None],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    async def build(client: Client, session: Session) -> None:
+        choice = FileChoice(kind="gif")
+        with client:
+            file_options.build_options(session, choice)()
+            field = field_of(client, label)
+            before = field.props["shown"]["value"]
+            field.take(value=text, number=1)
+        now = session.settings.size[0] if label == "Breite" else choice.seconds
+        if isinstance(taken, str):
+            assert taken in said[0]
+            assert field.props["shown"]["value"] == before == plain_number(now)
+        else:
+            assert said == [] and now == taken
+
+    said: list[str] = []
+    monkeypatch.setattr("drapery.studio.notices.show_notice", lambda line, _: said.append(line))
+    in_page(build)
+
+
+@pytest.mark.parametrize("built", [True, False])
+def test_a_page_is_offered_only_where_its_module_is_built(
+    built: bool, in_page: Callable[..., None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            file_options.build_options(session, FileChoice())
+        kinds = [name for name, _ in field_of(client, "Datei").props["choices"]]
+        assert ("html" in kinds) == built and "gif" in kinds
+
+    monkeypatch.setattr(file_options, "is_module_built", lambda: built)
+    in_page(build)
+
+
+def test_after_a_new_banner_a_dye_goes_to_the_field(in_page: Callable[..., None]) -> None:
+    async def build(client: Client, session: Session) -> None:
+        session.selection.press_pattern("minecraft:creeper")
+        bar.start_anew(session)
+        session.selection.press_dye("red")
+        assert session.sketch.base == "red"
+
+    in_page(build)
+
+
+def test_a_deleted_design_comes_back_after_another_is_opened(
+    in_page: Callable[..., None], tmp_path: Path
+) -> None:
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            panel = LibraryPanel(session)
+        await panel.refresh()
+        await press(client, "Red löschen", until=lambda: titles() == {"Blue"})
+        await press(client, "Blue öffnen", until=lambda: session.sketch.title == "Blue")
+        await press(client, "Zurückholen", until=lambda: titles() == {"Red", "Blue"})
+
+    async def press(client: Client, title: str, until: Callable[[], bool]) -> None:
+        named = lambda: [e for e in client.elements.values() if e.props.get("title") == title]  # noqa: E731
+        while not named():
+            await asyncio.sleep(0.01)
+        (found,) = named()
+        assert is_seen(found)
+        for listener in found._event_listeners.values():
+            if listener.type == "click":
+                found._handle_event({"listener_id": listener.id, "args": {}})
+        while not until():
+            await asyncio.sleep(0.01)
+
+    def titles() -> set[str]:
+        return {each.title for each in library.search()[0]}
+
+    library = Library(tmp_path / "library.sqlite")
+    for title in ("Red", "Blue"):
+        picture = plain(1, 2, 3, 255, side=16)
+        library.add(Design(sketch_of(BANNER, title), Settings(), (), picture))
     in_page(build)
 
 

@@ -57,8 +57,9 @@ def _title(session: Session) -> None:
 
 
 def start_anew(session: Session) -> None:
-    """Begin with a plain banner or shield; Undo brings the design back."""
-    session.selection.lay_out(Sketch(kind=session.sketch.kind))
+    """Begin with a plain banner or shield, whose field the next dye is for; Undo brings the design
+    back."""
+    session.selection.lay_out(Sketch(kind=session.sketch.kind), chosen="field")
 
 
 def randomise(session: Session) -> None:

@@ -6,7 +6,8 @@ A field shows the value of `get` and updates it at every `refresh`. The user's i
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -85,8 +86,7 @@ class Fields:
 
     def number(self, label: str, option: Option, get: Get, change: Change) -> None:
         """A number with an option's bounds and help; an empty field returns to its last value."""
-        step = "1" if option.type is int else "any"
-        self._number(label, "number", option, get, change, step=step)
+        self._number(label, "number", option, get, change)
 
     def slider(
         self,
@@ -99,7 +99,9 @@ class Fields:
         **bounds: float,
     ) -> None:
         """A slider with its value in words, with an option's help and its bounds or others."""
-        field = self._number(label, "range", option, get, change, step=step, **bounds)
+        least, most = option.bounds or (0, 0)
+        bounds = {"min": least, "max": most, "step": step} | bounds
+        field = self._number(label, "range", option, get, change, **bounds)
         field.classes("slider", remove="field").props["aria-label"] = translated(label)
         with next(field.ancestors()):
             shown = text_element("").classes("option-value").props("aria-hidden=true")
@@ -114,12 +116,11 @@ class Fields:
         self, label: str, kind: Kind, option: Option, get: Get, change: Change, **props: Any
     ) -> FormField:
         def changed(text: str) -> None:
-            with suppress(ValueError, OverflowError):
-                change(int(float(text)) if option.type is int else float(text))
+            if text.strip():
+                change(typed_number(option, text))
 
-        minimum, maximum = option.bounds or (0, 0)
-        props = {"min": minimum, "max": maximum, "title": option_help(option)} | props
-        return self._field(label, kind, lambda: plain(get()), changed, **props)
+        title = option_help(option)
+        return self._field(label, kind, lambda: plain(get()), changed, title=title, **props)
 
     def choice(
         self, label: str, choices: Mapping[str, str], get: Get, change: Change, **props: Any
@@ -161,6 +162,14 @@ class Fields:
             field.props.update(props)
         self.on_refresh(field.refresh)
         return field
+
+
+def typed_number(option: Option, text: str) -> Any:
+    """A number that a user typed, with a point or a comma; of a pair, one of its two numbers.
+
+    Raises OptionError that names the option and its limits.
+    """
+    return replace(option, parts=()).parse(text.replace(",", "."))
 
 
 def copy_field(name: str, label: str, rows: int) -> Callable[[str], None]:

@@ -29,6 +29,7 @@ from drapery.studio.snippets import (
 from drapery.studio.translation import translated
 from drapery.studio.viewport import ViewportRequest
 from drapery.studio.widgets import text_element
+from drapery.web.wasm.module import is_module_built
 
 GROUNDS = {"transparent": "transparent", "colour": "one colour"}
 SKY = "#a8c8e8"
@@ -99,7 +100,8 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
             )
 
     with ui.element("div").classes("options"):
-        titles = {kind: title_of(kind) for kind in KINDS}
+        made = [kind for kind in KINDS if kind != "html" or is_module_built()]
+        titles = {kind: title_of(kind) for kind in made}
         fields.choice("File", titles, lambda: choice.kind, lambda kind: choice.set(kind=kind))
         with only("size"):
             _sides(session, fields)

@@ -226,7 +226,6 @@ class LibraryPanel:
             session.entries[session.sketch.origin] = number
             session.tags[session.sketch.origin] = ", ".join(design.tags)
             self._follow()
-            self._undo.set_visibility(False)
             show_notice(_said("Opened {title}", design.title))
 
     def _edit(self, design: "Design") -> None:

@@ -48,7 +48,10 @@ def build(session: Session) -> None:
             pack_store.refuse(number)
             show_notice(str(error), "fault")
         else:
-            show_notice(f"{entry.name}: {contents.summary}")
+            if contents.warnings:
+                show_notice(contents.warnings[0], "warning")
+            else:
+                show_notice(f"{entry.name}: {contents.summary}")
         finally:
             reading.set_text("")
 

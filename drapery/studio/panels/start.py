@@ -21,7 +21,9 @@ def build(session: Session) -> None:
     translated_text("Begin with a design", "h2").classes("heading")
     with ui.element("div").classes("line"):
         button(
-            "New banner", lambda: session.selection.lay_out(Sketch()), text="New banner"
+            "New banner",
+            lambda: session.selection.lay_out(Sketch(), chosen="field"),
+            text="New banner",
         ).classes("primary")
         for name, label in (("library", "Open from the library"), ("text", "Open a text or file")):
             button(label, partial(_show_tab, name), text=label)

@@ -45,6 +45,11 @@ def module_places() -> list[Path]:
     return [HERE / name, *([folder / "web" / name] if folder else [])]
 
 
+def is_module_built() -> bool:
+    """Whether the module is built for these sources."""
+    return any(path.is_file() for path in module_places())
+
+
 def read_module() -> bytes:
     """The module. Raises WasmBuildError where it is not built for these sources."""
     for path in module_places():
