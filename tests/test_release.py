@@ -82,7 +82,8 @@ def test_nothing_installs_the_package_of_somebody_else() -> None:
     """`drapery` on the package index is another project; ours is `drapery-mc`."""
     assert PROJECT["name"] == "drapery-mc"
     asked = r"(?:pipx?|tool) install[^\n`&;#]*[ \"']drapery(?![\w.-])"
-    other = re.compile(rf"{asked}|uvx drapery(?!-)|\bdrapery\\?\[[a-z]")
+    pages = r"pypi\.org/project/drapery(?!-)"
+    other = re.compile(rf"{asked}|uvx drapery(?!-)|\bdrapery\\?\[[a-z]|{pages}")
     assert other.search("pip install drapery") and other.search('"drapery[video]"')
     assert not other.search("pip install drapery-mc") and not other.search('"drapery-mc[gl]"')
     assert [name for name, text in known_texts() if name != THIS and other.search(text)] == []

@@ -79,7 +79,7 @@ async function readFile(name) {
   const inPage = document.querySelector(`script[data-drapery="${CSS.escape(name)}"]`);
   const answer = inPage
     ? new Response(Uint8Array.from(atob(inPage.textContent.trim()), (each) => each.charCodeAt(0)))
-    : await fetch(new URL(name, import.meta.url));
+    : await fetch(new URL(`./${name.slice(0, -4)}.bin`, import.meta.url)); // so bundlers find the files
   if (!answer.ok) throw new Error(`${name}: the server answers ${answer.status}; put the files of the package beside the module`);
   const plain = answer.body.pipeThrough(new DecompressionStream("gzip"));
   return new Uint8Array(await new Response(plain).arrayBuffer());
