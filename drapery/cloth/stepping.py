@@ -13,8 +13,8 @@ from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.forces import Force, Gravity, lower_forces
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import Solver, check_moved, check_state, check_step
-from drapery.cloth.solvers.desbrun import SolverDesbrun
 from drapery.cloth.solvers.driver import KernelSolver
+from drapery.cloth.solvers.registry import solver as make_solver
 from drapery.cloth.state import State, rest_state
 from drapery.cloth.strain import NEVER
 from drapery.errors import OptionError, shown
@@ -56,7 +56,7 @@ class MovingCloth:
         collisions: Collisions | None = None,
     ) -> MovingCloth:
         """The cloths before their first step; arguments as in `simulate`. Raises OptionError."""
-        solver = SolverDesbrun() if solver is None else solver
+        solver = make_solver() if solver is None else solver
         check_step(dt, 1)
         _check_types(cloth, solver)
         state = rest_state(cloth, count) if start is None else start
@@ -149,7 +149,7 @@ def simulate(
 ) -> Iterator[State]:
     """An endless iterator of states: the start, then one state after every `every` steps.
 
-    solver: `SolverDesbrun()` by default. forces: by default only gravity. dt: one step [s].
+    solver: `SolverXPBD()` by default. forces: by default only gravity. dt: one step [s].
     start: by default `count` cloths in the rest shape. pins: a path of the pinned particles.
     collisions: resolved after every step. Use `itertools.islice` to take a number of states.
     The call raises OptionError for wrong arguments. The iterator raises it where a force or a path

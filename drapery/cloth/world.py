@@ -20,7 +20,7 @@ from drapery.cloth.cloth import Cloth
 from drapery.cloth.fabric import Fabric
 from drapery.cloth.forces import Force, Gravity
 from drapery.cloth.solvers.base import Solver, check_step
-from drapery.cloth.solvers.xpbd import SolverXPBD
+from drapery.cloth.solvers.registry import solver
 from drapery.cloth.state import MAX_CLOTHS, State
 from drapery.errors import OptionError, shown
 from drapery.mesh import Array
@@ -126,7 +126,7 @@ class World:
     """
 
     dt: float = 1.0 / 60.0
-    solver: Solver = field(default_factory=SolverXPBD)
+    solver: Solver = field(default_factory=solver)
     forces: ForcesAt = lambda places: (Gravity(),)
     stiff: StiffMotion | None = None
     detail: Detail = field(default_factory=Detail)
@@ -152,13 +152,16 @@ class World:
         return ids
 
     def remove(self, ids: Sequence[int] | NDArray[np.int64]) -> None:
-        """Remove cloths. Raises OptionError for an unknown id."""
+        """Remove cloths, and a topology of which none is left. Raises OptionError for an unknown
+        id."""
         wanted = np.asarray(ids, np.int64).reshape(-1)
         missing = np.setdiff1d(wanted, self.ids())
         if missing.size:
             raise OptionError(f"cloth {missing[0]} is not in the world; use ids that `ids` lists")
         for batch in self._batches.values():
             batch.select(~np.isin(batch.ids, wanted))
+        kept = {key: batch for key, batch in self._batches.items() if batch.ids.size}
+        self._batches = kept
 
     def ids(self) -> NDArray[np.int64]:
         """The ids of all cloths, in the order of `shown`."""

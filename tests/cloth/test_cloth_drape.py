@@ -4,12 +4,24 @@ import itertools
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
 import trimesh
 
-from drapery.cloth import Drag, Gravity, Wind, grid, max_stretch, rest_state, simulate
+from drapery import Settings
+from drapery.cloth import (
+    Drag,
+    Gravity,
+    MovingCloth,
+    Wind,
+    World,
+    grid,
+    max_stretch,
+    rest_state,
+    simulate,
+)
 from drapery.cloth.colliders import (
     Capsule,
     Collider,
@@ -22,8 +34,9 @@ from drapery.cloth.colliders import (
 from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.colliders.packing import pack
 from drapery.cloth.collisions import Collisions
-from drapery.cloth.solvers.registry import SOLVERS, solver
+from drapery.cloth.solvers.registry import DEFAULT_SOLVER, SOLVERS, solver
 from drapery.errors import OptionError
+from drapery.settings import SolverName
 
 THICKNESS = 0.03
 FLOOR = Plane(np.array([0, -0.9, 0]), np.array([0.0, 1, 0]))
@@ -158,10 +171,16 @@ def test_a_batch_that_collides_equals_its_cloths_alone():
 def test_solvers_are_found_by_name_with_their_options():
     for name in SOLVERS:
         assert type(solver(name, threads=1)).__module__.endswith(f".{name}")
+    assert tuple(SOLVERS) == get_args(SolverName)
     with pytest.raises(OptionError, match="use one of: desbrun, xpbd"):
         solver("euler")
     with pytest.raises(OptionError, match="solver pbd has no option 'glue'; use one of: passes"):
         solver("pbd", glue=1)
+
+
+def test_the_default_solver_is_the_same_everywhere():
+    assert solver() == MovingCloth.begin(grid(3, 3, 1.0, 1.0)).solver == World().solver
+    assert Settings().solver == DEFAULT_SOLVER
 
 
 def test_the_pages_on_solvers_and_contact_run_as_they_are_written():

@@ -1,5 +1,8 @@
 """A world of cloths: the same bits as a batch, stable ids, a cap, and no jump between levels."""
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
 
@@ -78,6 +81,19 @@ def test_a_world_without_cloths_steps_on() -> None:
     world.remove(world.add(CLOTH, row(2)))
     world.step(EYE)
     assert not world.ids().size
+
+
+def test_a_topology_goes_with_its_last_cloth() -> None:
+    world, cloth = World(), strip(4, 0.5)
+    ids = world.add(cloth, row(2))
+    seen = weakref.ref(cloth)
+    world.remove(ids[:1])
+    assert [view.cloth is cloth for view in world.shown()] == [True]
+    world.remove(ids[1:])
+    assert not list(world.shown())
+    del cloth
+    gc.collect()
+    assert seen() is None
 
 
 def test_a_cloth_is_prepared_once() -> None:

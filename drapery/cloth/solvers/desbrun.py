@@ -76,7 +76,7 @@ class DesbrunSheetPlan(NamedTuple):
 
 @dataclass(frozen=True)
 class SolverDesbrun(KernelSolver):
-    """Desbrun's predictor-corrector (1999), the default solver.
+    """Desbrun's predictor-corrector (1999).
 
     It is stable for any stiffness and step and fast for many small hanging cloths; it damps motion.
 

@@ -15,11 +15,15 @@ SOLVERS = {
     "provot": "SolverProvot",
     "implicit": "SolverImplicit",
 }
-"""Names of solvers (also of their modules) and their classes; the default is first."""
+"""Names of solvers (also of their modules) and their classes."""
+DEFAULT_SOLVER = "xpbd"
+"""The solver of whoever names none: it holds fine cloth and keeps its motion."""
 
 
-def solver(name: str, **options: Any) -> Solver:
-    """A solver by its name, with keyword options: `solver("xpbd", substeps=8)`.
+def solver(name: str = DEFAULT_SOLVER, **options: Any) -> Solver:
+    """A solver by its name, with keyword options: `solver("pbd", passes=8)`.
+
+    The default is that of `simulate`, `MovingCloth.begin`, `World` and `Settings`.
 
     Raises OptionError for an unknown name or option.
     """
