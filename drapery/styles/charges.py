@@ -53,10 +53,10 @@ def charges_of(material: Material) -> Charges:
 
     Where its layers are not of one dye each, every texel is of the dye that is nearest to it.
     """
+    if not is_dyed(material):
+        return _nearest_charges(merged_texels(material))
     numbers = {dye.rgb: dye.number for dye in DYES.values()}
     tinted = [layer for layer in material.layers if layer.tint in numbers]
-    if len(tinted) < len(material.layers) - 1 or not tinted:
-        return _nearest_charges(merged_texels(material))
     side = max(layer.texels.shape[1] for layer in material.layers)
     alphas = [_repeated(layer.texels[..., 3], side // layer.texels.shape[1]) for layer in tinted]
     shape = max(each.shape[0] for each in alphas), side
@@ -74,6 +74,13 @@ def charges_of(material: Material) -> Charges:
         else:
             dyes[alpha >= HALF], above[alpha >= HALF] = number, 0
     return Charges(dyes, dyes + len(DYES) * above, shares)
+
+
+def is_dyed(material: Material) -> bool:
+    """Whether the layers of a material are of one dye each, but for one below them."""
+    dyes = {dye.rgb for dye in DYES.values()}
+    tinted = sum(layer.tint in dyes for layer in material.layers)
+    return tinted > 0 and tinted >= len(material.layers) - 1
 
 
 def fades(alpha: NDArray[np.uint8], field: Marks) -> bool:

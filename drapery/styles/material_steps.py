@@ -14,7 +14,15 @@ from drapery.banner.dyes import DYES
 from drapery.elementary import cos, sin, sine_of_turns
 from drapery.mesh import Array
 from drapery.render.scene import Material, Texels, TextureLayer
-from drapery.styles.charges import SHEET, Charges, Marks, Numbers, charges_of, merged_texels
+from drapery.styles.charges import (
+    SHEET,
+    Charges,
+    Marks,
+    Numbers,
+    charges_of,
+    is_dyed,
+    merged_texels,
+)
 from drapery.styles.colour_field import Colour
 from drapery.styles.colours import as_pixels, rgb_of
 from drapery.styles.palettes import (
@@ -96,6 +104,19 @@ def embroider(
     linen = 0.93 - 0.16 * ((x // 2 + y // 2) % 2) + 0.06 * _noise(texels.shape[:2], 5)
     seam = np.where(_near(_borders(charges.labels), 3), 0.72, 1.0)
     return _sheet(material, _shaded(texels, np.where(dyes == ground, linen * seam, stitched)))
+
+
+@costs(4)
+def flatten(material: Material) -> Material:
+    """Each charge in its dye alone: no shading of its texture, and no half covered texels at edges.
+
+    Gradients mix the dyes. Where layers are not of one dye each, the texture stays.
+    """
+    if not is_dyed(material):
+        return material
+    texels, _ = _enlarged(material, 1)
+    flat = _bytes(_mixed_dyes(_charges(material, texels)))
+    return _sheet(material, np.concatenate([flat, texels[..., 3:]], axis=-1))
 
 
 @costs(16)

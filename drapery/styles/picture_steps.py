@@ -42,6 +42,7 @@ def shade(
     *,
     bands: Annotated[int, Field(ge=2, le=16, description="steps from dark to bright")] = 3,
     darkest: Annotated[float, Field(ge=0, le=1, description="brightness of the darkest")] = 0.5,
+    brightest: Annotated[float, Field(ge=0, le=1, description="that of the brightest")] = 1.0,
     azimuth: Annotated[float, Field(ge=-180, le=180, description="of the light [degrees]")] = -55,
     elevation: Annotated[float, Field(ge=-90, le=90, description="of the light [degrees]")] = 40,
 ) -> Canvas:
@@ -54,7 +55,7 @@ def shade(
     a, e = np.radians([azimuth, elevation])
     towards = sin(a) * cos(e), sin(e), cos(a) * cos(e)
     light = np.array([*towards, DARK, BRIGHT - DARK], np.float32)
-    factors = darkest + (1 - darkest) * (np.arange(bands, dtype=np.float32) / (bands - 1))
+    factors = darkest + (brightest - darkest) * (np.arange(bands, dtype=np.float32) / (bands - 1))
     table = np.rint(np.arange(256) * factors[:, None].astype(np.float64)).astype(np.uint8)
     drawn, found = canvas.words(), canvas.buffers
     cel(drawn, found.normal, found.model, light, bands, table)

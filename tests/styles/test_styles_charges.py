@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from drapery import Banner
-from drapery.banner import PATTERNS
+from drapery.banner import DYES, PATTERNS
 from drapery.packs import open_packs
 from drapery.render import Material, TextureLayer
 from drapery.style import flag_material
@@ -97,6 +97,19 @@ def test_a_translucent_charge_of_a_pack_is_one_charge() -> None:
     plain = material_of("white")
     given = Material((*plain.layers, TextureLayer(texels, (176, 46, 38))))
     assert np.array_equal(charges_of(given).dyes == 14, texels[..., 3] > 0)
+
+
+def test_flat_charges_have_the_colours_of_their_dyes_and_no_other() -> None:
+    given = material_of("white creeper:lime border:black")
+    colours = {DYES[name].rgb for name in ("white", "lime", "black")}
+    (layer,) = STEPS["material"]["flatten"](given).layers
+    assert {tuple(map(int, each)) for each in layer.texels[..., :3].reshape(-1, 3)} == colours
+    assert (layer.texels[..., 3] == 255).all()
+
+
+def test_a_texture_without_dyes_stays_as_it_is() -> None:
+    plain = Material((TextureLayer(np.full((64, 64, 4), 77, np.uint8)),))
+    assert STEPS["material"]["flatten"](plain) is plain
 
 
 def test_a_gradient_of_a_large_pack_is_one_too() -> None:
