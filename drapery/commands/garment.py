@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.notices import compile_notice, progress
+from drapery.commands.notices import compile_notice, drawing, progress
 from drapery.option import Subject
 
 if TYPE_CHECKING:
@@ -101,7 +101,7 @@ def write_garment(
         with compile_notice():
             save_model(garment, out, settings, seconds=seconds, fps=fps)
     elif kind == "still":
-        with compile_notice():
+        with drawing():
             draw(garment, settings).save(out)
     else:
         total = frame_count(seconds, fps)

@@ -1,6 +1,7 @@
 """Output of commands on standard error: notes, warnings, progress."""
 
 import sys
+import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
 
 MAX_LINE = 4000
 """Most characters of one line on standard error."""
+SLOW = 5.0
+"""A picture that takes longer [s] says on a terminal for how long it has been drawn."""
 
 
 _beside: list["Popen[bytes]"] = []
@@ -83,6 +86,43 @@ def start_beside(words: list[str], call: bytes = b"") -> None:
         assert process.stdin is not None
         process.stdin.write(call)
         process.stdin.flush()
+
+
+@contextmanager
+def drawing(what: str = "drawing") -> Iterator[None]:
+    """`compile_notice`; on a terminal, what takes longer than `SLOW` also shows the time so far.
+
+    The cloth of a still moves in one call, so how much of it is left is not known.
+    """
+    ended = threading.Event()
+
+    def show() -> None:
+        if not ended.wait(SLOW):
+            with elapsed_bar(what):
+                ended.wait()
+
+    watch = threading.Thread(target=show, daemon=True)
+    with compile_notice():
+        with suppress(OSError, ValueError):  # it may be closed
+            if sys.stderr.isatty():
+                watch.start()
+        try:
+            yield
+        finally:
+            ended.set()
+            if watch.ident is not None:
+                watch.join()
+
+
+def elapsed_bar(what: str) -> "Progress":
+    """A line on standard error with the time since it began, which is gone when it ends."""
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = SpinnerColumn(), TextColumn(f"{what} ..."), TimeElapsedColumn()
+    bar = Progress(*columns, console=Console(stderr=True), transient=True)
+    bar.add_task(what, total=None)
+    return bar
 
 
 @contextmanager

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.notices import compile_notice
+from drapery.commands.notices import drawing
 
 OutOption = Annotated[
     Path, typer.Option("-o", "--out", metavar="FILE", help="The picture to write.")
@@ -25,5 +25,5 @@ def run(
 
     options = o.options_of(words)
     check_quality(check_target(out, "still"), quality)
-    with compile_notice():
+    with drawing():
         draw(o.design_of(words), **options).save(out, quality=quality)
