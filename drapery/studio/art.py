@@ -50,12 +50,12 @@ def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
 def face_address(
     document: Document, banner: Banner, scale: int = FACE_SCALE, pack: str = "now"
 ) -> str:
-    """The address of the flat face of any design.
+    """The address of the flat face of any design, from that of the page.
 
     pack: the tab's packs as they are `now`, its `own` art alone, or the number of one of its packs.
     """
     words = {"design": write_banner(banner, "shorthand"), "kind": banner.kind, "scale": scale}
-    return f"/design/{document.token}.png?{urlencode(words | _packs(document, pack))}"
+    return f"design/{document.token}.png?{urlencode(words | _packs(document, pack))}"
 
 
 def pattern_names(packs: Packs) -> tuple[str, ...]:
@@ -122,10 +122,10 @@ def style_png(
 
 
 def style_address(document: Document, style: str) -> str:
-    """The address of `style_png` for the tab's packs and design."""
+    """The address from the page of `style_png` for the tab's packs and design."""
     settings = document.settings
     shown = document.sketch, settings.packs, settings.format
-    return f"/styles/{document.token}/{style}.png?v={crc32(repr(shown).encode()):x}"
+    return f"styles/{document.token}/{style}.png?v={crc32(repr(shown).encode()):x}"
 
 
 def _cell(packs: Packs, banner: Banner) -> Texels:
@@ -136,12 +136,12 @@ def _cell(packs: Packs, banner: Banner) -> Texels:
 def sheet_address(
     document: Document, dye: str, base: str = "", pack: str = "now", *, rows: bool = False
 ) -> str:
-    """The address of `pattern_sheet`, or its `pattern_rows`, for a dye on that of the field.
+    """The address from the page of `pattern_sheet`, or its `pattern_rows`, for a dye on a field.
 
     base: replaces the dye of the field. pack: as in `face_address`.
     """
     words = {"base": base or document.sketch.base, "dye": dye, "rows": rows}
-    return f"/patterns/{document.token}.png?{urlencode(words | _packs(document, pack))}"
+    return f"patterns/{document.token}.png?{urlencode(words | _packs(document, pack))}"
 
 
 def _packs(document: Document, pack: str) -> dict[str, str]:

@@ -69,8 +69,7 @@ export default {
       this.share = 0;
       return new Promise((resolve) => {
         const request = new XMLHttpRequest();
-        const prefix = window.path_prefix ?? "";
-        request.open("POST", `${prefix}${this.address}?name=${encodeURIComponent(name)}`);
+        request.open("POST", `${this.address}?name=${encodeURIComponent(name)}`);
         request.upload.onprogress = (event) => (this.share = event.loaded / (event.total || 1));
         request.onload = () => resolve(answer(request.responseText, name));
         request.onerror = () => resolve({ line: `${name} could not be sent; send it again` });

@@ -36,7 +36,7 @@ class FileField(ui.element, component="file_field.js"):
         zone: str = "",
     ) -> None:
         super().__init__()
-        self._props["address"] = f"/upload/{session.token}/{purpose}"
+        self._props["address"] = f"upload/{session.token}/{purpose}"
         self._props["label"] = translated(label)
         self._props["sends"] = translated("Sending {name}")
         self._props["accept"] = endings

@@ -17,6 +17,8 @@ from starlette.requests import HTTPConnection
 from starlette.responses import PlainTextResponse, RedirectResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+HEALTH = "/healthz"
+"""Answers without a token while the server runs, for those who restart it."""
 LOOPBACK = frozenset({"localhost", "127.0.0.1", "::1"})
 
 _HEADERS = {
@@ -52,6 +54,8 @@ class Guard:
         request = HTTPConnection(scope)
         if not self._is_own_page(request):
             await _refuse(scope, receive, send, "the studio answers only to its own page")
+        elif scope["type"] == "http" and scope["path"] == HEALTH:
+            await PlainTextResponse("ok\n")(scope, receive, send)
         elif self._has_cookie(request):
             await self.app(scope, receive, _hardened(send))
         elif self._brings_token(request):
@@ -84,8 +88,11 @@ class Guard:
         """
         query = request.query_params.multi_items()
         rest = urlencode([(key, value) for key, value in query if key != "token"])
-        # A browser reads a path that begins with two slashes as another host.
-        path = "/" + request.scope["path"].lstrip("/\\")
+        # A browser reads a path that begins with two slashes as another host. A proxy that removes
+        # the beginning of paths names it in this header, which the page's framework reads too.
+        prefix = request.headers.get("x-forwarded-prefix", "").strip("/\\")
+        path = f"/{prefix}/" if prefix else "/"
+        path += request.scope["path"].lstrip("/\\")
         response = RedirectResponse(f"{path}?{rest}" if rest else path, 303)
         value = _cookie_value(self.token or "")
         response.set_cookie(_cookie_name(request), value, httponly=True, samesite="lax")

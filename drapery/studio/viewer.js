@@ -27,8 +27,7 @@ export default {
     },
   },
   mounted() {
-    const prefix = window.path_prefix ?? "";
-    const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}${prefix}${this.address}`;
+    const address = new URL(this.address, location.href).href.replace("http", "ws");
     const onStatus = (line) => (this.line = line);
     const onState = (state) => this.update(state);
     try {

@@ -29,6 +29,6 @@ class ViewerElement(ui.element, component="viewer.js", esm={"drapery-viewer": VI
 
     def __init__(self, session: Session, which: Which = "all", label: str = LABEL) -> None:
         super().__init__()
-        self._props["address"] = f"/live/{session.token}?which={which}"
+        self._props["address"] = f"live/{session.token}?which={which}"
         self._props["label"] = translated(label)
         self._props["words"] = [translated(text) for text in ("no wind", "frames/s")]

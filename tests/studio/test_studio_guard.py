@@ -2,11 +2,14 @@
 
 import asyncio
 import ipaddress
+import re
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from drapery.cli import main
+from drapery.studio import app
 from drapery.studio.app import reachable
 from drapery.studio.guard import LOOPBACK, Guard, host_name
 
@@ -88,6 +91,30 @@ def test_the_token_becomes_a_cookie_and_leaves_the_address() -> None:
     assert status(guard, host=host, cookie=cookie + "0") == 403
     assert status(guard, kind="websocket", host=host, cookie=cookie) == "websocket.accept"
     assert status(Guard(_hello, None, TOKEN + "!"), host=host, cookie=cookie) == 403
+
+
+def test_a_proxy_names_the_prefix_that_it_removes() -> None:
+    guard = Guard(_hello, None, TOKEN)
+    query = "token=open+sesame+%26+more&design=x"
+    for prefix in ("/studio", "/studio/", "//studio", "studio"):
+        welcome = call(guard, host="lan", path="/", query=query, **{"x-forwarded-prefix": prefix})
+        assert dict(welcome["headers"])[b"location"] == b"/studio/?design=x"
+
+
+def test_the_pages_of_a_tab_are_named_relative_to_it() -> None:
+    """Behind a prefix an address that begins with a slash leads elsewhere."""
+    folder = Path(app.__file__).parent
+    text = "".join(path.read_text("utf-8") for path in folder.rglob("*.py"))
+    assert re.findall(r'f"/\w+/\{.*', text) == []
+
+
+def test_health_is_told_to_anyone_who_may_speak_to_it() -> None:
+    guard = Guard(_hello, None, TOKEN)
+    assert status(guard, host="lan") == 403
+    assert status(guard, host="lan", path="/healthz") == 200
+    assert status(guard, host="lan", path="/healthz", origin="http://evil") == 403
+    assert status(guard, kind="websocket", host="lan", path="/healthz") == "websocket.close"
+    assert status(Guard(_hello, LOOPBACK, None), host="evil", path="/healthz") == 403
 
 
 def test_a_page_may_load_nothing_from_elsewhere() -> None:

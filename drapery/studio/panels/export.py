@@ -132,7 +132,7 @@ class ExportForm:
         elif work.state == "stopped":
             show_notice(translated("Stopped; no file was made"))
         else:
-            address = f"/export/{self._session.token}/{self._own.number}"
+            address = f"export/{self._session.token}/{self._own.number}"
             self._link.props["href"] = address
             self._link.set_text(f"{work.name}, {shown_size(work.path.stat().st_size)}")
             self._link.set_visibility(True)

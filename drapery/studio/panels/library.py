@@ -119,7 +119,7 @@ class LibraryPanel:
         translated_text("The whole library", "h2")
         with ui.element("div").classes("line"):
             export = translated_text("Export it as a file", "a").classes("export-link")
-            export.props("download").props["href"] = f"/library/{self._session.token}"
+            export.props("download").props["href"] = f"library/{self._session.token}"
         label = "Drop an exported library here, or choose it (.json)"
         endings = ".json,application/json"
         FileField(self._session, "library", label, self._import, endings=endings)
