@@ -59,12 +59,6 @@ new MutationObserver(() => {
 """
 """Keeps the notices of a page, which go by themselves while a loaded machine looks elsewhere."""
 
-END_VIEWER = """
-const viewer = document.querySelector(".viewer")?.viewer;
-viewer?.end();
-return !!viewer;
-"""
-
 WIDE = (1280, 800)
 PHONE = (390, 844)
 
@@ -170,12 +164,15 @@ def open_browser(folder: Path) -> Any:
     return driver
 
 
-def resize(driver: Any, size: tuple[int, int], *, dark: bool = False) -> None:
-    """The size of what is seen [CSS pixels], and whether the system's theme is dark."""
+def resize(driver: Any, size: tuple[int, int], *, dark: bool = False, moves: bool = False) -> None:
+    """The size of what is seen [CSS pixels], whether the system's theme is dark, and whether its
+    user wants motion: cloth that waves, drawn without a graphics card here, takes the time of all
+    else."""
     metrics = {"width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": False}
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
     theme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [theme]})
+    motion = {"name": "prefers-reduced-motion", "value": "no-preference" if moves else "reduce"}
+    driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [theme, motion]})
 
 
 def open_page(driver: Any, studio: Studio, query: str = "") -> None:
@@ -190,12 +187,6 @@ def open_address(driver: Any, address: str) -> None:
     driver.get_log("browser")
     driver.get(address)
     wait_until(lambda: driver.execute_script("return !!window.studio?.ready"))
-
-
-def end_live_cloth(driver: Any) -> None:
-    """Close the live view, which is drawn without a graphics card here, and takes the time of all
-    else."""
-    wait_until(lambda: driver.execute_script(END_VIEWER))
 
 
 def paste(driver: Any, text: str) -> None:

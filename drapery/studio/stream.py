@@ -128,6 +128,9 @@ class ViewerConnection:
         self._shaped = True
         self.viewport.do(lambda live: None)  # draws it again, even while it is paused
 
+    def on_still(self, value: Any) -> None:
+        self.viewport.hold_still()
+
     def on_keys(self, value: Any) -> None:
         keys, azimuth = _list(value, 2)
         held = tuple(key for key in KEYS if key in str(keys))

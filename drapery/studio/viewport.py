@@ -36,6 +36,8 @@ LONG = 0.8
 """The user gets a note if a turn takes longer than this [s]."""
 FIRST = 2.0
 """How long the cloth waits until its first picture has been seen [s]."""
+HUNG = 120
+"""The number of time steps after which cloth that stands still for its user is shown."""
 LONGEST = 60.0
 """The latest moment of a pause that becomes the picture's `time` [s].
 
@@ -98,6 +100,7 @@ class Viewport:
         self._stale = True
         self._keys: tuple[str, ...] = ()
         self._paused = False
+        self._still = False  # whether its user prefers reduced motion
         self._visible = 0
         self._task: asyncio.Task[None] | None = None
         self._pulse = asyncio.Event()
@@ -145,6 +148,13 @@ class Viewport:
     def reset(self) -> None:
         """Reset the cloth to rest, a scene to its start, and the camera to the named view."""
         self.do(self._restart)
+
+    def hold_still(self) -> None:
+        """Begin paused, for a user who prefers reduced motion; cloth then shows a moment in which
+        it hangs. The picture keeps its `time`."""
+        if not self._still:
+            self._still = self._paused = True
+            self.update(paused=True)
 
     def look_anew(self) -> None:
         """Reset the camera to the named view."""
@@ -263,7 +273,7 @@ class Viewport:
             if self._picture[1] is None and clock() < patience:
                 ticks = 0  # show the first picture before the kernels are compiled
             fault, version = self.fault, self.version
-            if not self.request.paused or self._stale or self._inputs:
+            if not self.request.paused or self._stale or self._inputs or self._must_hang():
                 await self._run_in_thread(partial(self.turn, ticks))
             if self.version != version:
                 self._wake()
@@ -346,11 +356,12 @@ class Viewport:
     def _move(self, ticks: int) -> bool:
         if self._live is not None:
             self._live.leaves_room = not self.request.paused
-        if self.request.paused or ticks <= 0:
+        must_hang = self._must_hang()
+        if ticks <= 0 or (self.request.paused and not must_hang):
             return False
         if self._player is None:
             if self._live is not None:
-                self._live.step(ticks)
+                self._live.step(HUNG if must_hang else ticks)
             return self._live is not None
         self._owed += ticks * STEP * self._player.fps
         if self._owed < 1.0:
@@ -359,6 +370,11 @@ class Viewport:
         self._owed = min(self._owed - 1.0, 1.0)
         self._player.step()
         return True
+
+    def _must_hang(self) -> bool:
+        """Whether cloth that stands still for its user is at rest yet, where it is flat."""
+        live = self._live if self._still and self._player is None else None
+        return live is not None and self.request.paused and not live.time
 
     def _choose_player(self, packs: Packs) -> None:
         """Begin another scene or garment if the request asks for one. Raises DraperyError."""

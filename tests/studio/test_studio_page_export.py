@@ -14,13 +14,14 @@ from urllib.parse import quote, urlsplit
 import pytest
 from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
 from studio_browser import (
+    WIDE,
     Studio,
     console_errors,
     drop as drop_file,
-    end_live_cloth,
     lying,
     notices,
     open_page,
+    resize,
     wait_until,
 )
 
@@ -38,13 +39,9 @@ DESIGN = Sketch(
 class Page:
     """The page of one tab, by what a person sees of it."""
 
-    def __init__(
-        self, driver: Any, studio: Studio, query: str = "", *, is_live: bool = False
-    ) -> None:
+    def __init__(self, driver: Any, studio: Studio, query: str = "") -> None:
         self.driver, self.studio = driver, studio
         open_page(driver, studio, query)
-        if not is_live:
-            end_live_cloth(driver)
 
     def run(self, script: str, *words: Any) -> Any:
         return self.driver.execute_script(script, *words)
@@ -98,19 +95,19 @@ return true;
 """
 
 
-LIVE = pytest.mark.parametrize("is_live", [True], ids=["live"])
+MOVES = pytest.mark.parametrize("moves", [True], ids=["moves"])
 
 
 @pytest.fixture
-def is_live() -> bool:
-    """Whether the page of a test has a live cloth; `LIVE` says so."""
+def moves() -> bool:
+    """Whether the user of a test's page wants motion; `MOVES` says so."""
     return False
 
 
 @pytest.fixture
-def page(chromium: Any, studio: Studio, is_live: bool) -> Iterator[Page]:
-    link = f"?d={write_link(DESIGN, Settings())}"
-    opened = Page(chromium, studio, link, is_live=is_live)
+def page(chromium: Any, studio: Studio, moves: bool) -> Iterator[Page]:
+    resize(chromium, WIDE, moves=moves)
+    opened = Page(chromium, studio, f"?d={write_link(DESIGN, Settings())}")
     yield opened
     assert console_errors(chromium) == []
     assert "Traceback" not in "".join(studio.log)
@@ -128,7 +125,7 @@ def landed(downloads: Path, name: str) -> bytes:
     return (downloads / name).read_bytes()
 
 
-@LIVE
+@MOVES
 def test_a_picture_is_the_commands_to_the_byte(
     page: Page, downloads: Path, tmp_path: Path, drapery: Any
 ) -> None:

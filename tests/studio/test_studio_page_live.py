@@ -29,7 +29,7 @@ VIEWER = "document.querySelector('.viewer').viewer"
 
 @pytest.fixture
 def page(chromium: Any, studio: Studio) -> Any:
-    resize(chromium, WIDE)
+    resize(chromium, WIDE, moves=True)
     open_page(chromium, studio)
     wait_until(lambda: ask(chromium, "drawing?.scene?.light[0] > 0"))
     return chromium
@@ -87,6 +87,17 @@ def test_it_waves_and_says_how_often(page: Any) -> None:
     rate = wait_until(lambda: (found := frame_rate(page)) > 5 and found)
     print(f"{rate} frames/s")
     assert console_errors(page) == []
+
+
+def test_it_stands_still_for_a_user_who_prefers_that(chromium: Any, studio: Studio) -> None:
+    resize(chromium, WIDE)
+    open_page(chromium, studio)
+    pause = chromium.find_element(By.CSS_SELECTOR, ".live-bar button[aria-label=Pause]")
+    wait_until(lambda: pause.get_attribute("aria-pressed") == "true")
+    pause.click()
+    wait_until(lambda: pause.get_attribute("aria-pressed") == "false")
+    before = positions(chromium)
+    wait_until(lambda: np.abs(positions(chromium) - before).max() > 0.02)
 
 
 def test_keys_steer_the_wind(page: Any) -> None:

@@ -62,6 +62,32 @@ def test_no_input_is_lost_while_turns_are_made(session: Session) -> None:
     assert seen == [*range(2000)]
 
 
+def test_cloth_stands_still_for_a_user_who_prefers_that(session: Session) -> None:
+    """It hangs, as at a moment of its motion, and moves once the user wants it to."""
+    viewport = session.viewport
+
+    def places() -> Any:
+        shown = viewport.shown()
+        assert shown is not None
+        return shown.panes[0].scene.models[-1].mesh.positions
+
+    flat, time_of_picture = places(), session.settings.time
+    viewport.hold_still()
+    viewport.turn(1)
+    hung = places()
+    assert np.abs(hung - flat).max() > 0.02
+    viewport.turn(1)
+    assert np.array_equal(places(), hung)
+    viewport.reset()
+    viewport.turn(1)
+    assert np.array_equal(places(), hung), "cloth at rest would be flat"
+    viewport.update(paused=False)
+    viewport.hold_still()  # a connection that was lost says it again
+    viewport.turn(1)
+    assert not np.array_equal(places(), hung)
+    assert session.settings.time == time_of_picture
+
+
 def test_a_garment_is_shown_at_rest_and_then_moves(session: Session) -> None:
     viewport, kinds = session.viewport, []
     wear(session, "flag")

@@ -28,6 +28,7 @@ export class Viewer extends View {
     this.stream = new Stream(address, (message) => this.receive(message), onStatus);
     this.input = new InputHandler(this);
     this.watch();
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) this.stream.send({ still: true }, true);
   }
 
   watch() {
