@@ -78,6 +78,14 @@ class PlayerSettings:
         metavar="DESIGN",
         audience="anyone",
     )
+    worn_design: str | None = _option(
+        None,
+        str,
+        "A design on the pieces of cloth that show one, or on all that is worn if none does",
+        default_text="none",
+        metavar="DESIGN",
+        audience="anyone",
+    )
     shield: str | None = _option(
         None,
         str,

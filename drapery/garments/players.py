@@ -136,7 +136,8 @@ def player_of(settings: PlayerSettings, folder: Path = Path()) -> Garment:
     wearer = make_wearer(look=_look_of(settings.look), **given)
     cape = None if settings.cape is None else folder / settings.cape
     wear = [folder / name if name.endswith(ENDING) else name for name in settings.wear]
-    return dressed_player(wearer, cape=cape, elytra=settings.elytra, wear=wear, folder=folder)
+    player = dressed_player(wearer, cape=cape, elytra=settings.elytra, wear=wear, folder=folder)
+    return player if settings.worn_design is None else player.with_design(settings.worn_design)
 
 
 def _look_of(text: str) -> tuple[float, ...]:

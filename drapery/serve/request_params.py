@@ -262,7 +262,7 @@ def _player(values: dict[str, str], config: ServiceConfig, skin: Path | None) ->
     from drapery.garments import garment_names, is_profile_text, player_of, skin_names
 
     given = {name: values[name] for name in PLAYER_OPTIONS if name in values}
-    for name in ("head", "shield"):
+    for name in ("head", "worn_design", "shield"):
         if len(given.get(name, "")) > config.limits.max_length:
             raise OptionError(f"{name} has over {config.limits.max_length} characters")
     chosen = {name: PLAYER_OPTIONS[name].parse(value) for name, value in given.items()}

@@ -17,6 +17,7 @@ from drapery.garments import (
     player_of,
 )
 from drapery.option import Option, Output, Subject
+from drapery.player_settings import PLAYER_OPTIONS
 from drapery.scenes import Clip, SceneEntry, find_scene
 from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, OPTIONS, frame_count
 from drapery.studio.chosen_scene import SceneChoice
@@ -57,6 +58,9 @@ OUTPUTS: dict[str, tuple[Output, ...]] = {
 }
 """What each kind of file is for the table of options: a 3-D file holds a loop or one pose, and a
 design has no options."""
+
+CAPES = ("cape", "elytra")
+"""Garments that show the design although their own texture is another."""
 
 _SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-:./,#")
 
@@ -100,7 +104,7 @@ def subject_of(request: ExportRequest) -> Banner | Garment | None:
     found = drawn_garment(request)
     if found is None:
         return request.banner
-    design = _design_on(request, found)
+    design = _design_on(request)
     return found if design is None else found.with_design(design)
 
 
@@ -125,18 +129,21 @@ def _player(request: ExportRequest) -> PlayerSettings | None:
         wearer = find_garment(request.garment).wearer
         if wearer is None or wearer.kind != "player":
             return None
-    wear = () if request.garment is None else (request.garment,)
+    player = PlayerSettings(skin=request.skin)
+    if request.garment is not None:
+        player = replace(player, wear=(request.garment,))
     if request.banner is None:
-        return PlayerSettings(skin=request.skin, wear=wear)
+        return player
     text = write_banner(request.banner, "shorthand")
-    if request.banner.kind == "shield":
-        return PlayerSettings(skin=request.skin, wear=wear, shield=text)
-    return PlayerSettings(skin=request.skin, wear=wear, head=text)
+    if request.garment is not None and _shows_design(request.garment):
+        player = replace(player, worn_design=text)
+    return replace(player, **{"shield" if request.banner.kind == "shield" else "head": text})
 
 
 def _player_words(player: PlayerSettings, called: Mapping[str, str]) -> dict[str, Any]:
     """The options of a player that differ from their default, with the user's names of files."""
-    words = {name: getattr(player, name) for name in ("skin", "wear", "head", "shield")}
+    names = ("skin", "wear", "head", "worn_design", "shield")
+    words = {name: getattr(player, name) for name in names}
     words["skin"] = called.get(player.skin, player.skin)
     words["wear"] = [_garment_name(each, called) for each in player.wear]
     return {name: value for name, value in words.items() if value}
@@ -147,8 +154,16 @@ def _garment_name(garment: str, called: Mapping[str, str]) -> str:
     return called.get(garment, Path(garment).name)
 
 
-def _design_on(request: ExportRequest, found: Garment) -> Banner | None:
-    return request.banner if found.shows_design else None
+def _design_on(request: ExportRequest) -> Banner | None:
+    """The design on a garment, if it shows one; a player has its own options for that."""
+    if request.garment is None or _player(request) is not None:
+        return None
+    return request.banner if _shows_design(request.garment) else None
+
+
+def _shows_design(garment: str) -> bool:
+    """Whether a garment shows the design of the page."""
+    return garment in CAPES or find_garment(garment).shows_design
 
 
 def file_name(request: ExportRequest, stem: str = "banner") -> str:
@@ -173,7 +188,7 @@ def as_command(
     if scene := scene_of(request):
         return _scene_command(request, scene, stem)
     found, player = drawn_garment(request), _player(request)
-    banner = request.banner if found is None else _design_on(request, found)
+    banner = request.banner if found is None else _design_on(request)
     design = [] if banner is None else [_quoted(write_banner(banner, "shorthand"))]
     out = _quoted(file_name(request, stem))
     if request.kind == "json":
@@ -209,7 +224,7 @@ def as_python(
         names += ["drapery.garments.PlayerSettings", "drapery.garments.player_of"]
         lines = [f"banner = player_of(PlayerSettings({given}))", *lines]
     elif found is not None:
-        design = _design_on(request, found)
+        design = _design_on(request)
         text = "" if design is None else f".with_design({_text(write_banner(design, 'shorthand'))})"
         names += ["drapery.garments.find_garment"]
         name = _garment_name(str(request.garment), called or {})
@@ -224,7 +239,7 @@ def as_python(
 def _player_flags(player: PlayerSettings, called: Mapping[str, str]) -> Iterator[str]:
     for name, value in _player_words(player, called).items():
         for each in value if isinstance(value, list) else (value,):
-            yield from (f"--{name}", _quoted(each))
+            yield from (PLAYER_OPTIONS[name].command_flag, _quoted(each))
 
 
 def _scene_command(request: ExportRequest, scene: SceneChoice, stem: str) -> str:

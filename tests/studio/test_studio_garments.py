@@ -9,11 +9,17 @@ import pytest
 
 from drapery import Banner
 from drapery.errors import DesignError, OptionError
-from drapery.garments import find_garment
+from drapery.garments import Garment, find_garment
 from drapery.render import png_bytes
 from drapery.studio.garment_store import MAX_FILES, MAX_PARTICLES
 from drapery.studio.session import Session
-from drapery.studio.snippets import ExportRequest, as_command, as_python, drawn_garment
+from drapery.studio.snippets import (
+    ExportRequest,
+    as_command,
+    as_python,
+    drawn_garment,
+    subject_of,
+)
 
 SHAWL = """\
 description = "A shawl"
@@ -97,6 +103,14 @@ def test_a_tab_keeps_so_many_files(session: Session) -> None:
         session.garment_store.adopt(number)
 
 
+def textures(request: ExportRequest) -> set[str]:
+    """The sources of the textures of a garment and of what is over it."""
+    garment = subject_of(request)
+    assert isinstance(garment, Garment)
+    worn = (garment, *garment.over)
+    return {(each.texture or one.texture).source for one in worn for each in one.piece}
+
+
 def test_a_skin_that_is_sent_becomes_a_player_with_the_design_on_its_head(
     session: Session,
 ) -> None:
@@ -115,9 +129,22 @@ def test_a_skin_that_is_sent_becomes_a_player_with_the_design_on_its_head(
     assert player.wearer.skin == path and player.wearer.head == Banner("red")
     assert [each.name for each in player.over] == ["cape"]
     command = as_command(request, session.garment_store.names)
-    assert command.startswith("drapery player --skin 'Me & I.png' --wear cape --head red -o")
+    words = "drapery player --skin 'Me & I.png' --wear cape --head red --worn-design red -o"
+    assert command.startswith(words)
     code = as_python(request, session.garment_store.names)
-    assert 'player_of(PlayerSettings(skin="Me & I.png", wear=["cape"], head="red"))' in code
+    assert (
+        'player_of(PlayerSettings(skin="Me & I.png", wear=["cape"], head="red", worn_design="red"))'
+        in code
+    )
+    bare = replace(request, banner=None)
+    for name, shows in (("cape", True), ("elytra", True), ("tabard", True), ("dress", False)):
+        dressed = replace(request, garment=name)
+        same = subject_of(dressed) == subject_of(replace(dressed, banner=Banner("blue")))
+        assert textures(dressed) == ({"design"} if shows else textures(replace(bare, garment=name)))
+        assert not same  # the banner on the head is another
+        alone = replace(dressed, skin=None)
+        assert ("design" in textures(alone)) == shows
+        assert ("--design red" in as_command(alone)) == shows
     for name, kind in (("tent", "tent"), ("caparison", "caparison")):  # no player wears these
         other = drawn_garment(replace(request, garment=name))
         assert other is not None and other.name == kind
