@@ -47,17 +47,18 @@ PANELS = (
     PagePanel("face", "Flat", "crop_portrait", "viewport"),
     PagePanel("steps", "History", "history", "under"),
     PagePanel("motion", "Motion", "tune", "under"),
+    # To design, to bring in, to get out, and what is kept.
     PagePanel("patterns", "Patterns", "grid_view", "side"),
     PagePanel("start", "Start", "auto_awesome", "side"),
     PagePanel("styles", "Styles", "style", "side"),
-    PagePanel("text", "Text", "code", "side"),
     PagePanel("letters", "Letters", "abc", "side"),
+    PagePanel("text", "Text", "code", "side"),
     PagePanel("picture", "Picture", "image_search", "side"),
-    PagePanel("loom", "Loom", "handyman", "side"),
     PagePanel("packs", "Packs", "inventory_2", "side"),
     PagePanel("export", "Export", "ios_share", "side"),
-    PagePanel("compare", "Compare", "compare", "side"),
     PagePanel("embed", "Embed", "share", "side"),
+    PagePanel("loom", "Loom", "handyman", "side"),
+    PagePanel("compare", "Compare", "compare", "side"),
     PagePanel("library", "Library", "collections_bookmark", "side"),
 )
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from conftest import Run
 
+from drapery.banner import game_titles
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.formats import parse_banner, parse_banners
@@ -188,3 +189,10 @@ def test_no_line_of_a_mixed_list_is_lost(line: str):
         found = parse_banners(text)
     assert [one.where.partition(" ")[2][:1] for one in found] == ["2", "3", "4", "5"]
     assert found[2].banner == found[3].banner == Banner.parse("red creeper:lime")
+
+
+def test_titles_of_patterns_have_the_capitals_of_their_language() -> None:
+    titles = game_titles("de_de")[1]
+    wanted = {"square_top_left": "Rechtes Obereck", "small_stripes": "Vier Pfähle"}
+    wanted |= {"mojang": "Mojang-Logo", "half_vertical": "Rechts gespalten"}
+    assert {name: titles[name] for name in wanted} == wanted

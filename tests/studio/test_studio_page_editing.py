@@ -144,13 +144,20 @@ def test_the_live_view_comes_first_at_every_width(
       const wide = document.documentElement.scrollWidth;
       const over = [...document.querySelectorAll(".live-bar button")].filter(
         (each) => each.getBoundingClientRect().right > box(".live-bar").right + 1);
-      return [view.width * view.height, face.width * face.height, view.top, wide, over.length];
+      const tabs = [...document.querySelectorAll(".tab")].filter((each) => each.offsetParent);
+      const rows = new Set(tabs.map((each) => each.offsetTop)).size;
+      const other = box(".face-other");
+      const covered = other.height && Math.max(0, face.bottom - other.top);
+      const [seen, flat] = [view, face].map((each) => each.width * each.height);
+      return [seen, flat, view.top, wide, over.length, rows, covered];
     """
-    view, face, top, wide, over = chromium.execute_script(script)
+    view, face, top, wide, over, rows, covered = chromium.execute_script(script)
     assert view > face
     assert top < size[1] / 2
     assert wide <= size[0]
     assert over == 0
+    assert rows <= (1 if size[0] < 1000 else 2)
+    assert covered == 0
     if size[0] < 1000:
         chromium.execute_script("window.scrollTo(0, 400)")
         wait_until(lambda: chromium.execute_script(script)[2] >= -1)

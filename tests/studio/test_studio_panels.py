@@ -14,13 +14,24 @@ from nicegui.page import page
 from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
 
 from drapery import Banner, Settings
+from drapery.banner import FORMS
 from drapery.errors import PackError
 from drapery.studio.design_buttons import DesignButton
 from drapery.studio.exports import Export, ExportRequest
 from drapery.studio.file_field import FileField
 from drapery.studio.library import Library
 from drapery.studio.pack_store import PackStore
-from drapery.studio.panels import bar, export, file_options, letters, motion, packs, start, steps
+from drapery.studio.panels import (
+    bar,
+    export,
+    file_options,
+    letters,
+    motion,
+    packs,
+    start,
+    steps,
+    written,
+)
 from drapery.studio.panels.file_options import FileChoice
 from drapery.studio.panels.library import LibraryPanel
 from drapery.studio.records import Design
@@ -230,6 +241,21 @@ def test_a_typed_number_is_taken_with_a_comma_and_refused_at_once(
 
     said: list[str] = []
     monkeypatch.setattr("drapery.studio.notices.show_notice", lambda line, _: said.append(line))
+    in_page(build)
+
+
+def test_forms_of_text_are_listed_from_the_common_ones_to_the_others_by_name(
+    in_page: Callable[..., None],
+) -> None:
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            written.build_writer(session)
+        names = [name for name, _ in field_of(client, "Form des Textes").props["choices"]]
+        assert names[:3] == ["give", "give-legacy", "give-1.12"]
+        common = len(written.COMMON)
+        assert names[common:] == sorted(names[common:])
+        assert {*names} == {name for name, form in FORMS.items() if form.write}
+
     in_page(build)
 
 

@@ -2,7 +2,8 @@
 
 `Rotes Banner, Weißer Creeper`, or `rot creeper:weiß`. The names are in `languages.json`: for each
 language the dyes, the forms that dyes take within a phrase, and for each pattern which form it
-takes, and the words before and after the dye. Words for `banner` and `shield` are stems.
+takes, and the words before and after the dye, with the capital letters of titles. Words for
+`banner` and `shield` are stems.
 """
 
 import json
@@ -62,7 +63,8 @@ def _data() -> dict[str, Any]:
 
 def _language(name: str, entry: dict[str, object]) -> Language:
     forms: list[list[str]] = entry["forms"]  # type: ignore[assignment]
-    patterns: dict[str, tuple[int, str, str]] = entry["patterns"]  # type: ignore[assignment]
+    titles: dict[str, tuple[int, str, str]] = entry["patterns"]  # type: ignore[assignment]
+    patterns = {p: (form, b.lower(), a.lower()) for p, (form, b, a) in titles.items()}
     dyes = {
         word: dye
         for words in [*forms[::-1], entry["dyes"]]

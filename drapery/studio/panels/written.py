@@ -24,6 +24,8 @@ from drapery.studio.translation import translated
 from drapery.studio.widgets import button, set_props, text_element, translated_text
 
 COUNT = Option("count", "How many items the command gives", int, 1, bounds=(1, 1600))
+COMMON = ("give", "give-legacy", "give-1.12", "bedrock", "item", "shorthand", "json")
+"""The forms that most users look for; the others follow by name."""
 MAX_LORE = 500
 """The most characters of all lines of lore."""
 
@@ -52,7 +54,8 @@ def build_writer(session: Session) -> None:
     chosen = WrittenForm()
     fields = Fields(session)
     translated_text("Write the design", "h2").classes("heading")
-    forms = {name: f"{name}: {form.title}" for name, form in FORMS.items() if form.write}
+    others = sorted(name for name, form in FORMS.items() if form.write and name not in COMMON)
+    forms = {name: f"{name}: {FORMS[name].title}" for name in (*COMMON, *others)}
 
     def change(**changes: Any) -> None:
         chosen.details = replace(chosen.details, **changes)
