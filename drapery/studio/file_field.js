@@ -10,9 +10,10 @@ export default {
       </label>
       <progress v-if="busy" class="file-field-progress" max="1" :value="share"
                 :aria-label="sending"></progress>
+      <button v-if="busy" type="button" class="button" @click="request?.abort()">{{ stop }}</button>
     </div>`,
   props: {
-    address: String, label: String, sends: String, accept: String, multiple: Boolean, maxBytes: Number,
+    address: String, label: String, sends: String, stop: String, accept: String, multiple: Boolean, maxBytes: Number,
     // The tab that opens when a file with such an ending is dropped elsewhere on the page. A field
     // for all endings gets what no other one takes.
     tab: String,
@@ -68,10 +69,11 @@ export default {
       this.sending = this.sends.replace("{name}", () => name);
       this.share = 0;
       return new Promise((resolve) => {
-        const request = new XMLHttpRequest();
+        const request = (this.request = new XMLHttpRequest());
         request.open("POST", `${this.address}?name=${encodeURIComponent(name)}`);
         request.upload.onprogress = (event) => (this.share = event.loaded / (event.total || 1));
         request.onload = () => resolve(answer(request.responseText, name));
+        request.onabort = () => resolve({ line: `${name} was not sent` });
         request.onerror = () => resolve({ line: `${name} could not be sent; send it again` });
         request.send(file);
       });

@@ -39,6 +39,7 @@ class FileField(ui.element, component="file_field.js"):
         self._props["address"] = f"upload/{session.token}/{purpose}"
         self._props["label"] = translated(label)
         self._props["sends"] = translated("Sending {name}")
+        self._props["stop"] = translated("Cancel")
         self._props["accept"] = endings
         self._props["multiple"] = multiple
         self._props["tab"] = tab

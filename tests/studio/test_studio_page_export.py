@@ -503,6 +503,25 @@ def test_uploads_are_bounded_as_they_come(page: Page) -> None:
     assert status == 413 and b"16 files of this kind are here already" in body
 
 
+def test_an_upload_can_be_stopped(page: Page, tmp_path: Path) -> None:
+    big, slow = tmp_path / "big.zip", {"offline": False, "latency": 0, "downloadThroughput": -1}
+    big.write_bytes(bytes(8 << 20))
+    network = "Network.emulateNetworkConditions"
+    page.tab("packs")
+    before = sent(page)
+    page.driver.execute_cdp_cmd("Network.enable", {})
+    page.driver.execute_cdp_cmd(network, {**slow, "uploadThroughput": 65536})
+    try:
+        page.find("#panel-packs input[type=file]").send_keys(str(big))
+        stop = "const found = document.querySelector('#panel-packs .file-field button'); "
+        wait_until(lambda: page.run(stop + "found?.click(); return !!found"))
+        page.notice("big.zip was not sent")
+    finally:
+        page.driver.execute_cdp_cmd(network, {**slow, "uploadThroughput": -1})
+    wait_until(lambda: page.find("#panel-packs input[type=file]").is_enabled())
+    wait_until(lambda: sent(page) <= before)
+
+
 def _pour(studio: Studio, path: str, limit: int) -> int:
     """Send a body in chunks until the other end hangs up: how many bytes went."""
     address = urlsplit(studio.address)
