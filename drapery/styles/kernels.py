@@ -18,6 +18,8 @@ Whole = NDArray[np.int32]
 Singles = NDArray[np.float32]
 Doubles = NDArray[np.float64]
 
+PALE = 0.4
+"""The largest share of dark places that strokes of paper cover."""
 SLOTS = 8192
 """Colours that a kernel remembers; a power of two."""
 
@@ -177,14 +179,15 @@ def tone(words: Words, dark: Doubles, light: Doubles, gamma: float) -> None:
 def hatch(
     words: Words, model: Whole, strokes: Doubles, grid: int, pen: Doubles, ink: int, paper: int
 ) -> None:
-    """Strokes on models, the more the darker.
+    """Strokes on models, the more the darker, and strokes of paper on ink where it is darker still.
 
     strokes: cosine and sine of each direction across the strokes, and the darkness from which on
         there are any, float64 [S, 3]. grid: see `Canvas`.
-    pen: spacing and width of the strokes [pixels], strength, and the darkness over which all is
-        ink, float64 [4]. ink, paper: words.
+    pen: spacing and width of the strokes [pixels], strength, the darkness over which all is ink,
+        that from which on the strokes are of paper, and that at which those end, float64 [6].
+    ink, paper: words.
     """
-    spacing, width, strength, solid = pen
+    spacing, width, strength, solid, turned, ended = pen
     for y in range(words.shape[0]):
         row, models = words[y], model[y]
         for x in range(len(row)):
@@ -198,6 +201,9 @@ def hatch(
                     break
                 place = x / grid * strokes[number, 0] + y / grid * strokes[number, 1]
                 across = place - np.floor(place / spacing) * spacing
+                if dark > turned:
+                    drawn = across >= PALE * spacing * (ended - dark) / (ended - turned)
+                    break
                 drawn = across < width * min(max((dark - least) * 3 + 0.5, 0.0), 1.6)
             row[x] = (row[x] & 0xFF000000) | np.int64(ink if drawn else paper)
 

@@ -35,6 +35,8 @@ FINE = 16
 
 SOLID = 0.985
 """A place darker than this is ink alone."""
+ENDED = 0.86
+"""So dark are places in which strokes of paper end."""
 
 
 def shade(
@@ -73,9 +75,13 @@ def outline(
     contrast: Annotated[int, Field(ge=0, le=255, description="between colours; 0 for none")] = 0,
     darken: Annotated[float, Field(ge=0, le=1, description="1 is `colour`, 0 the own")] = 1.0,
     materials: Annotated[bool, Field(description="whether also between materials")] = False,
+    white_below: Annotated[
+        int, Field(ge=0, le=255, description="brightness of places with white lines; 0 for none")
+    ] = 0,
 ) -> Canvas:
     """Lines along silhouettes, between models, along steps in depth, creases and colours.
 
+    A line is white where all beside it is darker than `white_below`.
     The method is Saito and Takahashi's ("Comprehensible rendering of 3-D shapes", 1990).
     """
     from drapery.styles.kernels import draw_marks
@@ -87,7 +93,11 @@ def outline(
     source, drawn, found = _own_words(canvas), canvas.words(), canvas.buffers
     if materials:
         found = replace(found, model=_surface_numbers(found))
-    draw_marks(drawn, source, _edges(source, found, limits, contrast), reach, table)
+    edges = _edges(source, found, limits, contrast)
+    if white_below:
+        pale = _between_dark(source, edges, white_below)
+        draw_marks(drawn, source, pale, reach, np.full((3, 256), 255, np.uint8))
+    draw_marks(drawn, source, edges, reach, table)
     return canvas.painted(as_pixels(drawn))
 
 
@@ -146,17 +156,21 @@ def hatching(
     paper: Annotated[Colour, Field(description="of what is bright")] = "#f6f1e4",
     layers: Annotated[int, Field(ge=1, le=4, description="directions of strokes")] = 3,
     strength: Annotated[float, Field(ge=0.1, le=4, description="over 1: more strokes")] = 1.0,
+    turned: Annotated[
+        float, Field(ge=0.1, le=1, description="darkness from which strokes are of paper on ink")
+    ] = 1.0,
 ) -> Canvas:
     """Strokes of a pen: the darker a place, the more directions of strokes cross there.
 
-    What is black is ink alone, such as lines of an outline in black.
+    From the darkness `turned` on, strokes of paper on ink become thinner and end. What is black is
+    ink alone, such as lines of an outline in black.
     """
     from drapery.styles.kernels import hatch
 
     angles = np.radians((45, -45, 0, 90)[:layers])
     least = 0.22 + 0.6 * np.arange(layers) / layers
     strokes = np.stack([cos(angles), sin(angles), least], axis=-1)
-    pen = np.array([spacing, width, strength, SOLID])
+    pen = np.array([spacing, width, strength, SOLID, turned, max(ENDED, turned + 0.01)])
     drawn, model = canvas.words(), canvas.buffers.model
     hatch(drawn, model, strokes, canvas.grid, pen, word_of(colour), word_of(paper))
     return canvas.painted(as_pixels(drawn))
@@ -245,6 +259,25 @@ def _edges(
     given = found.depth, found.normal.reshape(height, -1), found.model, limits
     mark_edges(marks, words, *given, contrast, flags, eights[-1])
     return eights[:-1]
+
+
+def _between_dark(words: Words, edges: NDArray[np.uint64], limit: int) -> NDArray[np.uint64]:
+    """The pixels at edges that are darker than a limit, and all four beside them; see `_edges`.
+
+    They are taken out of `edges`.
+    """
+    marks, (height, width) = edges.view(np.uint8), words.shape
+    y, x = np.nonzero(marks)
+    dark = np.ones(len(y), np.bool_)
+    for down, right in ((0, 0), (-1, 0), (1, 0), (0, -1), (0, 1)):
+        row, column = np.clip(y + down, 0, height - 1), np.clip(x + right, 0, width - 1)
+        beside = as_pixels(words[row, column][None])[0].astype(np.int32)
+        bright = beside[:, :3] @ np.array([299, 587, 114])
+        dark &= (bright < 1000 * limit) & (beside[:, 3] > 0)
+    result = np.zeros_like(edges)
+    result.view(np.uint8)[y[dark], x[dark]] = 1
+    marks[y[dark], x[dark]] = 0
+    return result
 
 
 def _laid_under(

@@ -12,10 +12,10 @@ from drapery.banner import DYES
 from drapery.cloth import grid
 from drapery.errors import OptionError
 from drapery.packs import open_packs
-from drapery.render import Material, TextureLayer
+from drapery.render import Buffers, Material, TextureLayer
 from drapery.scenes import still
 from drapery.style import FLAG_MAPPING, FLAG_SIZE, flag_material
-from drapery.styles import STEPS, Sheet, Style, StyleStep, find_style
+from drapery.styles import STEPS, Canvas, Sheet, Style, StyleStep, find_style
 from drapery.styles.grids import grid_shell
 from drapery.styles.palette_files import read_palette
 from drapery.styles.void_and_cluster import LEVELS, SIDE, blue_noise
@@ -237,6 +237,39 @@ def test_outlines_between_materials_of_one_model_are_drawn_if_wanted() -> None:
     without, drawn = (PICTURE["outline"](given, materials=each).pixels for each in (False, True))
     changed = np.flatnonzero((without != drawn).any(axis=(0, 2)))
     assert changed.tolist() == [9]
+
+
+def shown_model(pixels: np.ndarray) -> Canvas:
+    """A picture of one flat model that looks to the viewer."""
+    shape = pixels.shape[:2]
+    normal = np.broadcast_to(np.float32([0, 0, 1]), (*shape, 3)).copy()
+    depth, model = np.full(shape, 3, np.float32), np.zeros(shape, np.int32)
+    found = Buffers(depth, normal, model, np.zeros((*shape, 2), np.float32), model)
+    return Canvas(pixels, lambda: found)
+
+
+def test_lines_between_dark_colours_are_white_and_those_beside_bright_ones_are_not() -> None:
+    pixels = np.full((12, 40, 4), 255, np.uint8)
+    pixels[:, :14, :3], pixels[:, 14:28, :3] = (0, 0, 60), (70, 0, 0)
+    given = {"contrast": 40, "width": 1, "colour": "#102030"}
+    line = PICTURE["outline"](shown_model(pixels), white_below=100, **given).pixels[6]
+    assert line[13].tolist() == [255] * 4 and line[27].tolist() == [16, 32, 48, 255]
+    plain = PICTURE["outline"](shown_model(pixels), **given).pixels[6]
+    assert plain[13].tolist() == plain[27].tolist() == [16, 32, 48, 255]
+
+
+def test_strokes_are_of_paper_where_it_is_dark_and_end_where_it_is_black() -> None:
+    """The share of ink grows with the darkness."""
+    shares = []
+    for level in (250, 150, 120, 90, 60, 30):
+        grey = np.full((96, 96, 4), level, np.uint8)
+        grey[..., 3] = 255
+        drawn = PICTURE["hatching"](shown_model(grey), turned=0.6, spacing=8, width=2).pixels
+        assert len(np.unique(drawn.reshape(-1, 4), axis=0)) <= 2
+        shares.append(float((drawn[..., 0] < 128).mean()))
+    assert shares[0] == 0.0 and shares[-1] == 1.0
+    assert shares == sorted(shares)
+    assert 0.6 <= shares[3] < shares[4] < 1.0
 
 
 def test_a_drop_shadow_is_moved_and_lies_below() -> None:
