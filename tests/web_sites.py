@@ -42,9 +42,7 @@ def open_site(
     browser: Any, address: str, *, moves: bool = True, ready: bool = True, script: str = ""
 ) -> None:
     """Load a page and wait for its cloth. moves: without a wish for less motion. script: before."""
-    resize(browser, WIDE)
-    motion = {"name": "prefers-reduced-motion", "value": "no-preference" if moves else "reduce"}
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [motion]})
+    resize(browser, WIDE, moves=moves)
     browser.get_log("browser")
     command = "Page.addScriptToEvaluateOnNewDocument"
     added = browser.execute_cdp_cmd(command, {"source": script}) if script else {}
