@@ -31,11 +31,15 @@ def test_changed_texts_are_read_or_refused(name: str):
 def test_strange_keys_are_read_or_refused(name: str):
     """Each key of a tree in turn gives way to an empty one, a null, a number, a date, a merge."""
     report = fuzzing.FuzzReport()
-    for sample in SAMPLES[name]:
-        for found in KEY.finditer(sample):
-            for key in STRANGE_KEYS:
-                changed = sample[: found.start()] + key + sample[found.end() :]
-                fuzzing.judge(READERS[name], changed, report)
+    changes = [
+        sample[: found.start()] + key + sample[found.end() :]
+        for sample in SAMPLES[name]
+        for found in KEY.finditer(sample)
+        for key in STRANGE_KEYS
+    ]
+    # Each text's own reader gets all of its changes; the one that asks them all gets a seventh.
+    for changed in changes[:: 7 if name == "any text" else 1]:
+        fuzzing.judge(READERS[name], changed, report)
     assert not report.failures, report.failures[0]
 
 
