@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict
 from functools import cache, partial
-from importlib.metadata import packages_distributions, version
+from importlib.metadata import entry_points
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from inspect import unwrap
@@ -128,9 +128,13 @@ def _module_of(function: Any) -> str:
 
 @cache
 def code_of(package: str) -> list[str]:
-    """The versions and digests of an imported package: what is imported is what draws."""
-    names = packages_distributions().get(package, [])
-    found = [f"{name} {version(name)}" for name in sorted(set(names))]
+    """The versions and digests of an imported package: what is imported is what draws.
+
+    Distributions are found by their entry points. Those without one are known by digests alone: to
+    find all, importlib looks for each file of each distribution, which takes seconds.
+    """
+    points = [each for each in entry_points() if each.module.partition(".")[0] == package]
+    found = sorted({f"{each.dist.name} {each.dist.version}" for each in points if each.dist})
     module = sys.modules[package]
     places = [Path(place) for place in getattr(module, "__path__", [])]
     if not places and getattr(module, "__file__", None):
