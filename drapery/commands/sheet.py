@@ -116,28 +116,46 @@ def write_packs(
 
 
 @app.command("styles")
-@o.pictured("still")
+@o.pictured("still", without=("design",))
 def write_styles(
     out: SheetOption,
+    designs: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[DESIGN]...", help="Designs; several have a column each.", show_default=STYLED
+        ),
+    ] = None,
     moments: Annotated[
         int, typer.Option(help="Pictures of each style, at moments that follow each other.")
     ] = 1,
     view: o.ViewOption = "hero",
-    size: Annotated[str, typer.Option(help="Size of each picture in pixels.")] = "192x240",
+    size: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="WxH",
+            help="Size of each picture in pixels; several are drawn.",
+            show_default="192x240",
+        ),
+    ] = None,
     **words: Any,
 ) -> None:
-    """One design in every style, or in those of --style."""
-    from drapery.banner import parse_banner
+    """Designs in every style, or in those of --style, at one size or several."""
+    from drapery.banner import read_design
     from drapery.option import within
     from drapery.render import check_target
+    from drapery.settings import OPTIONS
     from drapery.sheets import styles_sheet
 
     within("moments", moments, 1, MAX_MOMENTS)
-    settings = o.settings_of(words | {"size": size, "view": view})
+    settings = o.settings_of(words | {"view": view})
+    sizes = [OPTIONS["size"].parse(each) for each in size or ("192x240",)]
     check_target(out, "still", "page")
     with compile_notice():
-        design = o.design_of(words) or parse_banner(STYLED)
-        styles_sheet(design, settings, moments=moments).save(out)
+        given = [
+            read_design(text, form=words["form"], number=words["number"])
+            for text in designs or (STYLED,)
+        ]
+        styles_sheet(given, settings, moments=moments, sizes=sizes).save(out)
 
 
 @app.command("garments")

@@ -6,15 +6,17 @@ from pathlib import Path
 
 import numpy as np
 
+from drapery.banner import write_banner
 from drapery.banner.design import Banner
 from drapery.banner.packs import open_packs
+from drapery.errors import OptionError
 from drapery.garments import dressed_player, find_garment, garment_names, make_wearer
 from drapery.pictures import draw, draw_face, draw_scenes
 from drapery.render import Frame, frame_view
 from drapery.scenes.dressing import Dressed
 from drapery.scenes.recording import Schedule
 from drapery.scenes.subjects import moments as staged_moments, still
-from drapery.settings import OPTIONS, ROTATIONS, Settings
+from drapery.settings import OPTIONS, ROTATIONS, Settings, StyleLike
 from drapery.sheets.sheet import PictureSheet, SheetCell
 from drapery.style.figure import SKINS
 from drapery.styles import find_style, style_names
@@ -78,21 +80,36 @@ def packs_sheet(
 
 
 def styles_sheet(
-    design: Banner | None, settings: Settings, *, moments: int = 1, background: str = PAPER
+    designs: Banner | Sequence[Banner] | None,
+    settings: Settings,
+    *,
+    moments: int = 1,
+    sizes: Sequence[tuple[int, int]] = (),
+    background: str = PAPER,
 ) -> PictureSheet:
-    """One design in each style of the settings, or in all that are known if these have none.
+    """Designs in each style of the settings, or in all that are known if these have none.
 
+    designs: with several, each has a column, and each style and size a row.
     moments: pictures of each style, BETWEEN seconds apart; with several, each style has a row.
+    sizes: width and height of pictures [pixels]; small ones are enlarged by whole numbers.
     background: of pictures whose settings have a transparent one, so that pale lines are seen.
-    Raises OptionError, PackError or BackendError.
+    Raises OptionError, also for several moments of several designs or sizes, PackError or
+    BackendError.
     """
     if settings.background == "transparent":
         settings = settings.changed(background=background)
     names = OPTIONS["style"].check(settings.style) or tuple(style_names())
+    several = [designs] if designs is None or isinstance(designs, Banner) else [*designs]
+    sizes = sizes or (settings.size,)
+    if moments > 1 and len(several) * len(sizes) > 1:
+        raise OptionError("several moments are drawn of one design in one size; leave out moments")
+    if len(several) * len(sizes) > 1:
+        return _styles_table(several, settings, names, sizes)
+    settings = settings.changed(size=sizes[0])
     times = [settings.time + BETWEEN * moment for moment in range(moments)]
     later = [settings.changed(time=time) for time in times] if moments > 1 else [settings]
     cells = tuple(
-        SheetCell(find_style(name).name, draw(design, each, style=name).pixels)
+        SheetCell(find_style(name).name, draw(several[0], each, style=name).pixels)
         for name in names
         for each in later
     )
@@ -100,6 +117,30 @@ def styles_sheet(
         return PictureSheet("Styles", cells, min(len(cells), 8))
     across = tuple(f"{time:g} s" for time in times)
     return PictureSheet("Styles", cells, moments, across, tuple(c.label for c in cells[::moments]))
+
+
+def _styles_table(
+    designs: Sequence[Banner | None],
+    settings: Settings,
+    names: Sequence[StyleLike],
+    sizes: Sequence[tuple[int, int]],
+) -> PictureSheet:
+    """A column for each design, and a row for each style and size."""
+    width, height = (max(side) for side in zip(*sizes, strict=True))
+    cells, down = [], []
+    for name in names:
+        for size in sizes:
+            times = min(width // size[0], height // size[1])
+            label = f"{find_style(name).name} {size[0]} x {size[1]}"
+            chosen = settings.changed(size=size)
+            down.append(label)
+            for design in designs:
+                pixels = draw(design, chosen, style=name).pixels
+                cells.append(SheetCell(label, pixels.repeat(times, axis=0).repeat(times, axis=1)))
+    across = tuple(
+        "" if design is None else write_banner(design, "shorthand") for design in designs
+    )
+    return PictureSheet("Styles", tuple(cells), len(designs), across, tuple(down))
 
 
 def garments_sheet(

@@ -17,7 +17,7 @@ class SheetCell:
 
 @dataclass(frozen=True, eq=False)
 class PictureSheet:
-    """Pictures of one size in rows.
+    """Pictures in rows.
 
     columns: pictures in a row. across, down: headings of columns and rows, which replace the
     labels; give both or neither.

@@ -12,6 +12,7 @@ import pytest
 import trimesh
 from conftest import Run
 from cost import limited_cost
+from PIL import Image
 from pydantic import Field
 from style_inputs import TEXEL, canvas, rippled
 
@@ -366,6 +367,29 @@ def test_a_sheet_of_styles_has_a_row_for_each_of_several_moments(tmp_path: Path)
     assert (sheet.down, len(sheet.across), len(sheet.cells)) == (("game", "cel"), 2, 4)
     assert (sheet.cells[0].pixels[..., 3] == 255).all()
     assert len(styles_sheet(BANNER, settings).cells) == 2
+
+
+def test_a_sheet_of_styles_has_a_column_for_each_design_and_a_row_for_each_size() -> None:
+    settings = Settings(style=("game", "cel"), grid=(5, 9))
+    designs = [BANNER, Banner.parse("red"), Banner.parse("blue cross:white")]
+    sheet = styles_sheet(designs, settings, sizes=[(20, 25), (40, 50)])
+    assert sheet.across == ("white creeper:lime border:black", "red", "blue cross:white")
+    assert sheet.down == ("game 20 x 25", "game 40 x 50", "cel 20 x 25", "cel 40 x 50")
+    assert {cell.pixels.shape for cell in sheet.cells} == {(50, 40, 4)}
+    assert len(sheet.cells) == 12
+    small = sheet.cells[0].pixels
+    assert np.array_equal(small[::2, ::2], small[1::2, 1::2])
+    with pytest.raises(OptionError, match="leave out moments"):
+        styles_sheet(designs, settings, moments=2)
+
+
+def test_the_command_draws_several_designs_and_sizes(drapery: Run, tmp_path: Path) -> None:
+    target = tmp_path / "sheet.png"
+    more = ["--style", "game", "--grid", "5x9", "--size", "20x25", "--size", "40x50"]
+    code, _, error = drapery("sheet", "styles", "white", "red", *more, "-o", str(target))
+    assert (code, error) == (0, "")
+    with Image.open(target) as drawn:
+        assert drawn.width > 2 * 40 and drawn.height > 2 * 50
 
 
 def test_a_manifest_reads_files_of_styles_beside_it(tmp_path: Path) -> None:
