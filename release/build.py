@@ -86,6 +86,16 @@ def copy_sources(tree: Path, with_built: bool) -> None:
             copied.chmod(0o755 if path.stat().st_mode & 0o100 else 0o644)
 
 
+def packed(folder: Path, name: str) -> bytes:
+    """The files of a folder as an archive .tar.gz with a folder of this name."""
+    content = io.BytesIO()
+    with tarfile.open(fileobj=content, mode="w:gz", compresslevel=0) as archive:
+        for path in folder.rglob("*"):
+            if path.is_file():
+                archive.add(path, f"{name}/{path.relative_to(folder).as_posix()}")
+    return same_times(content.getvalue(), epoch())
+
+
 def same_times(archive: bytes, time: int) -> bytes:
     """An archive .tar.gz with files in order, of one time and of nobody."""
     content = io.BytesIO()

@@ -6,17 +6,15 @@ play must have been compiled before: `python -m drapery.web.wasm.build`.
 """
 
 import argparse
-import io
 import json
 import shutil
-import tarfile
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
 from drapery import Settings
 from drapery.web.page import SIZE, write_component
-from release.build import ROOT, epoch, same_times
+from release.build import ROOT, packed
 from release.repository import ADDRESS
 
 TEXTS = ("LICENSE", "README.md", "package.json")
@@ -45,13 +43,9 @@ def pack(folder: Path, out: Path, address: str) -> Path:
     for name in (*package["files"], package["main"], package["types"], *TEXTS):
         if not any(folder.glob(name)):
             raise SystemExit(f"{package['name']} lacks {name}")
-    packed = io.BytesIO()
-    with tarfile.open(fileobj=packed, mode="w:gz") as archive:
-        for path in folder.iterdir():
-            archive.add(path, f"package/{path.name}")
     out.mkdir(parents=True, exist_ok=True)
     made = out / f"{package['name']}-{package['version']}.tgz"
-    made.write_bytes(same_times(packed.getvalue(), epoch()))
+    made.write_bytes(packed(folder, "package"))
     return made
 
 
