@@ -4,6 +4,7 @@ In a checkout without changes it writes, with the same bytes on every run with t
 
     python/           the source archive and the wheel; with --platform TAG also that of this one
     npm/              the package of the element
+    blender/          the add-on of one file
     site.tar.gz       the docs, with live cloth and the designer
     drapery.cdx.json  the dependencies in the versions of constraints.txt, as CycloneDX
     SHA256SUMS        the checksums of these files, for `sha256sum --check`
@@ -15,6 +16,7 @@ In a checkout without changes it writes, with the same bytes on every run with t
 import argparse
 import hashlib
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -25,6 +27,7 @@ from pathlib import Path
 from release import build, npm
 
 SUMS = "SHA256SUMS"
+ADD_ON = build.ROOT / "release" / "blender" / "drapery_banners.py"
 
 
 def build_all(out: Path, platform: str | None) -> None:
@@ -44,6 +47,8 @@ def build_all(out: Path, platform: str | None) -> None:
         run("release.kernels")
         build.build(out / "python", platform)
     npm.build(out / "npm")
+    (out / "blender").mkdir()
+    shutil.copy(ADD_ON, out / "blender")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         run("properdocs", "build", "--strict", "--quiet", "-f", "mkdocs.yml", "-d", folder / "site")

@@ -1,0 +1,53 @@
+"""The add-on for Blender, without it: the command that it runs, and what it says.
+
+`python -m release.blender.check` runs it in Blender.
+"""
+
+import importlib
+import shlex
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from docs_blocks import check_command
+
+ROOT = Path(__file__).parent.parent
+NAME = "release.blender.drapery_banners"
+
+
+@pytest.fixture
+def add_on(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    """The module of the add-on; `bpy` has only the names that it needs to be read."""
+    types = SimpleNamespace(AddonPreferences=object, Operator=object)
+    names = ("StringProperty", "EnumProperty", "FloatProperty")
+    props = SimpleNamespace(**dict.fromkeys(names, lambda **_: None))
+    monkeypatch.setitem(sys.modules, "bpy", SimpleNamespace(types=types, props=props))
+    yield importlib.import_module(NAME)
+    del sys.modules[NAME]
+
+
+def test_it_has_the_version_of_the_package(add_on: Any) -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    assert ".".join(map(str, add_on.bl_info["version"])) == project["version"]
+
+
+@pytest.mark.parametrize(
+    ("subject", "named"), [("model", "white creeper:lime"), ("garment", "cape"), ("model", "-x")]
+)
+def test_its_command_is_one_of_the_program(add_on: Any, subject: str, named: str) -> None:
+    words = add_on.words_of(subject, named, 1.5, 24, Path("cloth.glb"))
+    assert words[-2:] == ["--", named]
+    check_command(shlex.join(["drapery", *words]))
+
+
+def test_a_fault_is_the_line_of_the_command(add_on: Any) -> None:
+    program = "import sys; sys.exit('noise\\ndrapery: layer 1 is unknown')"
+    with pytest.raises(add_on.DraperyError, match=r"^drapery: layer 1 is unknown$"):
+        add_on.run_command(sys.executable, ["-c", program])
+    with pytest.raises(add_on.DraperyError, match="there is no command 'no-such'; name that"):
+        add_on.run_command("no-such", [])
+    add_on.run_command(sys.executable, ["-c", ""])
