@@ -62,6 +62,30 @@ def test_links_lead_somewhere(page: str) -> None:
         assert (path.parent / target).exists(), target
 
 
+def linked_from(pages: set[str]) -> set[str]:
+    """The pages of the docs to which some pages link in their text."""
+    found = set()
+    for page in pages:
+        folder = (ROOT / "docs" / page).parent
+        for target in re.findall(
+            r"\]\((?!https?:)([^)#]+\.md)", (ROOT / "docs" / page).read_text("utf-8")
+        ):
+            path = (folder / target).resolve()
+            if path.is_relative_to(ROOT / "docs"):
+                found.add(path.relative_to(ROOT / "docs").as_posix())
+    return found
+
+
+def test_each_guide_is_at_most_two_clicks_from_the_first_page() -> None:
+    first = linked_from({"index.md"})
+    reached = first | linked_from(first)
+    guides = {path.relative_to(ROOT / "docs").as_posix() for path in ROOT.glob("docs/guides/*.md")}
+    assert guides - reached == set()
+    text = (ROOT / "docs/index.md").read_text("utf-8")
+    for kind in ("a style", "a garment", "a solver", "a golden test"):
+        assert f"[{kind}](" in text
+
+
 def test_every_picture_of_the_docs_has_its_command() -> None:
     folder = ROOT / "docs" / "pictures"
     page = (ROOT / "docs" / "reference" / "pictures.md").read_text("utf-8")
