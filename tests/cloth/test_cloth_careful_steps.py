@@ -14,6 +14,7 @@ from drapery.cloth import (
     Collisions,
     Gravity,
     MovingCloth,
+    SolverDesbrun,
     SolverProvot,
     SolverXPBD,
     State,
@@ -22,11 +23,12 @@ from drapery.cloth import (
     max_stretch,
     simulate,
 )
-from drapery.cloth.colliders import rotation_about
+from drapery.cloth.colliders import rotation_about, straight
 from drapery.cloth.contact.box_data import HELD, NO_CONTACT
 from drapery.cloth.contact.box_frame import set_pose
 from drapery.cloth.contact.lanes_contact import contact_work, resolve
 from drapery.cloth.contact.self_contact_data import make_self_contact
+from drapery.cloth.solvers import desbrun, xpbd
 from drapery.cloth.strain import NEVER
 from drapery.jit import entry_point
 from drapery.mesh import Array
@@ -78,6 +80,23 @@ def held(cloth: Cloth, method: Any, state: State, wind: Wind) -> Array:
         work.start[:], work.end[:] = start, end
         codes.append(resolve(work, NO_CONTACT, itself, NEVER, 1))
     return np.array(codes) == HELD
+
+
+@pytest.mark.parametrize("method", [SolverDesbrun, SolverXPBD])
+def test_a_step_is_made_again_in_each_layout(method: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A plane of lanes of desbrun never made a step again."""
+    cloth, start = flag((17, 9)), Box(np.array([0.0, -1.2, -0.2]), np.array([0.8, 0.1, 0.1]))
+    bar, ends = Collisions([Collider(start, straight((0.0, 0.0, 12.0)))], UNIT), []
+    for layout in ("plane", "lanes"):
+        if layout == "lanes":
+            for module in (desbrun, xpbd):
+                monkeypatch.setattr(module, "is_sheet", lambda cloth: False)
+        moving = MovingCloth.begin(cloth, method(substeps=8), collisions=bar)
+        ends.append(moving.advance((Gravity(),), 4).state.positions[0])
+    way = np.abs(ends[0] - cloth.rest_positions).max()
+    assert way > 0.2
+    # Only the order of corrections along a row differs.
+    assert np.abs(ends[0] - ends[1]).max() < 0.1 * way
 
 
 @entry_point

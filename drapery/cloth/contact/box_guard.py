@@ -32,24 +32,36 @@ from drapery.jit import borrowing_kernel
 from drapery.mesh import Array
 
 GUARDS = 16
-"""The most rounds in which particles return to their places at the start of the step."""
+"""The most rounds in which particles return to their places at the start of the step: over what is
+in one box, and over all boxes."""
 SKIN = 2e-5
 """Parts that end nearer to a box than this [m] return too, since rounding to single precision could
 let them touch it; at most half the distance that the cloth keeps."""
+SAME = 1e-12
+"""A particle that is nearer to its start than this [m] is there: frames of boxes round."""
 
 
 @borrowing_kernel
 def guard_boxes(x0: Array, x: Array, contact: BoxContact, near: Candidates) -> float:
     """Return particles to their start until no part of the cloth is in a box; returns the longest
-    path of a particle [m]."""
-    longest = 0.0
-    for k in range(len(contact.halves)):
-        if near.counts[k, 0] > 0:
-            enter_frame(x0, x, contact, k, near, -1, 0)
-            for _ in range(GUARDS):
-                if not return_some(contact, k, near.frames[k], near):
-                    break
-            longest = max(longest, leave_frame(x, contact, k, near, 0))
+    path of a particle [m].
+
+    An edge of which one end returned because of one box may cross another, so all are looked at
+    until none returns a particle.
+    """
+    longest, boxes = 0.0, len(contact.halves)
+    for _ in range(GUARDS):
+        returned = False
+        for k in range(boxes):
+            if near.counts[k, 0] > 0:
+                enter_frame(x0, x, contact, k, near, -1, 0)
+                for _ in range(GUARDS):
+                    if not return_some(contact, k, near.frames[k], near):
+                        break
+                    returned = True
+                longest = max(longest, leave_frame(x, contact, k, near, 0))
+        if boxes == 1 or not returned:
+            break
     return longest
 
 
@@ -133,11 +145,11 @@ def edge_enters(half: Vector, kept: float, frame: Array, i: int, j: int) -> bool
 @borrowing_kernel
 def to_start(half: Vector, w: Array, frame: Array, i: int) -> bool:
     """Return a free particle to its start; whether that moved it."""
-    start, end = start_of(frame, i), end_of(frame, i)
-    same = start[0] == end[0] and start[1] == end[1] and start[2] == end[2]
-    if w[i] == 0.0 or same:
+    start = start_of(frame, i)
+    way = norm(subtract(end_of(frame, i), start))
+    if w[i] == 0.0 or way < SAME:
         return False
     put(frame, i, END, start)
     measure(half, frame, i)
-    frame[i, MOVED] += norm(subtract(end, start))
+    frame[i, MOVED] += way
     return True

@@ -296,17 +296,23 @@ def meet_substep(
     """Resolve the contacts of a block after substep number `turn` of h [s], counted over all steps,
     if any are due: at the end of a step, and in between where it is made again. Returns the number
     of the next substep, and whether its step is being made again."""
+    passed, when, careful = contact_due(turn, substeps, again)
+    if passed > 0 and meet_lanes(y, u, before, batch, start, when, h * passed, careful):
+        return turn // substeps * substeps, True
+    return turn + 1, again and (turn + 1) % substeps > 0
+
+
+@kernel
+def contact_due(turn: Any, substeps: Any, again: Any) -> Any:
+    """How many substeps have passed since contacts were resolved before, 0 if none are due now;
+    the `when` of `place_boxes`; and whether the step cannot be made again."""
     step, done = turn // substeps, turn % substeps + 1
     each = -(-substeps // MOST_CONTACTS) if again else substeps
-    if done % each > 0 and done < substeps:
-        return turn + 1, again
     since = (done - 1) // each * each
-    when = step, since / substeps, done / substeps
+    due = done % each == 0 or done == substeps
     # A step of one substep cannot have more contacts.
     careful = again or substeps == 1
-    if meet_lanes(y, u, before, batch, start, when, h * (done - since), careful):
-        return step * substeps, True
-    return turn + 1, again and done < substeps
+    return (done - since) * due, (step, since / substeps, done / substeps), careful
 
 
 @kernel
@@ -425,6 +431,26 @@ def meet_plane(
     if meets:
         keep_plane(before, y, u)
     return False
+
+
+@kernel
+def meet_plane_substep(
+    y: Any,
+    u: Any,
+    before: Any,
+    batch: Any,
+    cloth: Any,
+    turn: Any,
+    substeps: Any,
+    h: Any,
+    sheet: Any,
+    again: Any,
+) -> Any:
+    """The same as `meet_substep` for a plane y, u [3, lanes] of a cloth."""
+    passed, when, careful = contact_due(turn, substeps, again)
+    if passed > 0 and meet_plane(y, u, before, batch, cloth, when, h * passed, sheet, careful):
+        return turn // substeps * substeps, True
+    return turn + 1, again and (turn + 1) % substeps > 0
 
 
 @kernel

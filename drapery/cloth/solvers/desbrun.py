@@ -189,7 +189,8 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
         sheet_kernels.load_plane(u, batch.v, cloth, sheet)
         before = lanes_contact.begin_plane(y, u, batch, sheet)
         gusts = sheet_kernels.own_gusts(batch.gusts, cloth, sheet.controls.size)
-        for step in range(steps * substeps):
+        step, again = 0, False
+        while step < steps * substeps:
             time = batch.numbers[2] + step * batch.numbers[0]
             sheet_kernels.subtract_mean(g, u, mean, sheet)
             sheet_kernels.add_spring_velocities(g, y, plan.springs, work)
@@ -207,8 +208,8 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 y, plan.attachments, 0, plan.attachments.a.size, sheet_kernels.LIMIT, work
             )
             sheet_kernels.set_velocities(u, y, old, dt, sheet)
-            if (step + 1) % substeps == 0:
-                when = step // substeps, 0.0, 1.0
-                lanes_contact.meet_plane(y, u, before, batch, cloth, when, dt * substeps, sheet, 1)
+            step, again = lanes_contact.meet_plane_substep(
+                y, u, before, batch, cloth, step, substeps, dt, sheet, again
+            )
         sheet_kernels.store_plane(batch.new_x, y, cloth, sheet)
         sheet_kernels.store_plane(batch.new_v, u, cloth, sheet)
