@@ -19,6 +19,7 @@ from drapery.cloth import (
     Cloth,
     Collider,
     Collisions,
+    Fabric,
     Gravity,
     MovingCloth,
     Plane,
@@ -41,6 +42,7 @@ from drapery.settings import SolverName
 BEHIND = np.array([0.0, -0.5, 0.02])
 """A place so near to the cloth that the wind presses the cloth on it in the first step [m]."""
 THICK = 0.02
+FABRIC = Fabric(0.3, bending=1e-3, damping=0.05)
 TETRAHEDRON = np.array([[0.0, 0.3, 0.0], [0.3, -0.2, 0.0], [-0.3, -0.2, 0.0], [0.0, 0.0, -0.3]])
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 CELLS = np.array([[-1, -3, 0], [0, -3, 0]], np.int32)
@@ -56,24 +58,30 @@ def near(x: float = 0.0, z: float = 0.0) -> Array:
 def layouts(name: str) -> dict[str, tuple[Cloth, int]]:
     """Cloths, and how many of each, one for each layout that a solver has kernels for."""
     found = {
-        "small grid": (grid(4, 5, 1.0, 1.0), 1),
-        "crowd": (grid(3, 3, 1.0, 1.0), 19),
+        "small grid": (square(4, 5), 1),
+        "crowd": (square(3, 3), 19),
         "mesh": (upright_disc(), 1),
-        "grid without pins": (grid(4, 5, 1.0, 1.0, pins="none"), 1),
+        "grid without pins": (square(4, 5, "none"), 1),
     }
     if name in ("desbrun", "xpbd"):
-        found["plane of lanes"] = grid(18, 4, 1.0, 1.0), 2
-        found["plane of lanes on two pins"] = grid(17, 3, 1.0, 1.0, pins="corners"), 1
+        found["plane of lanes"] = square(18, 4), 2
+        found["plane of lanes on two pins"] = square(17, 3, "corners"), 1
     if name == "desbrun":
-        found["loose plane of lanes"] = grid(16, 3, 1.0, 1.0, pins="none"), 1
+        found["loose plane of lanes"] = square(16, 3, "none"), 1
     return found
+
+
+def square(columns: int, rows: int, pins: Any = "top") -> Cloth:
+    """A grid of 1 m that resists bending."""
+    return grid(columns, rows, 1.0, 1.0, pins=pins, fabric=FABRIC)
 
 
 def upright_disc() -> Cloth:
     """A round cloth that faces +z, held at one point of its rim."""
     flat = disc(2, 0.5)
     upright = flat.rest_positions[:, [0, 2, 1]] - (0.0, 0.5, 0.0)
-    return from_triangles(upright, flat.triangles, pins=(int(upright[:, 1].argmax()),))
+    held = (int(upright[:, 1].argmax()),)
+    return from_triangles(upright, flat.triangles, pins=held, fabric=FABRIC)
 
 
 def contacts() -> dict[str, Collisions | None]:

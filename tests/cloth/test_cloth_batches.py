@@ -18,8 +18,6 @@ from drapery.cloth import (
     SolverXPBD,
     State,
     Wind,
-    carried,
-    disc,
     grid,
     rest_state,
     simulate,
@@ -49,18 +47,6 @@ def digest(state):
     return hashlib.sha256(whole).hexdigest()
 
 
-@pytest.mark.parametrize("make", [lambda: grid(5, 9, 0.8, 1.6), lambda: disc(3, 0.5, pins=[0])])
-@each
-def test_a_batch_equals_its_cloths_alone(name, make):
-    cloth, solver = make(), SOLVERS[name]()
-    together = moved(cloth, solver, blown(), COUNT)
-    for one in (0, 13, COUNT - 1):
-        alone = moved(cloth, solver, blown(slice(one, one + 1)), 1)
-        np.testing.assert_array_equal(alone.positions[0], together.positions[one])
-        np.testing.assert_array_equal(alone.velocities[0], together.velocities[one])
-    assert np.abs(together.positions[0] - together.positions[1]).max() > 1e-3
-
-
 @each
 def test_threads_and_blocks_change_no_bit(name, monkeypatch):
     cloth = grid(5, 9, 0.8, 1.6)
@@ -71,21 +57,6 @@ def test_threads_and_blocks_change_no_bit(name, monkeypatch):
     monkeypatch.setattr("drapery.cloth.lanes.BLOCK_BYTES", 1)
     hashes |= {digest(moved(cloth, SOLVERS[name](threads=2), blown(), COUNT))}
     assert len(hashes) == 1
-
-
-@each
-def test_several_steps_in_one_call_are_the_same_steps(name):
-    cloth = grid(4, 6, 0.8, 1.6)
-    path = carried(cloth.rest_positions, np.arange(4), sway)
-    one, many = (
-        moved(cloth, SOLVERS[name](), blown(slice(0, 2)), 2, every=every, pins=path)
-        for every in (1, 10)
-    )
-    assert digest(one) == digest(many)
-
-
-def sway(time):
-    return np.eye(3), np.array([0.2 * np.sin(3 * time), 0.0, 0.1 * time])
 
 
 FOLDERS = [str(folder) for folder in Path(__file__).parents[:2]]
@@ -138,15 +109,6 @@ def test_a_forked_child_simulates_with_new_threads():
     run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
     parent, child = run.stdout.split()
     assert parent == child
-
-
-@each
-def test_pins_follow_their_path_exactly(name):
-    cloth = grid(4, 6, 0.8, 1.6)
-    path = carried(cloth.rest_positions, np.arange(4), sway)
-    end = moved(cloth, SOLVERS[name](), [Gravity()], 3, steps=30, pins=path)
-    np.testing.assert_allclose(end.positions[:, :4], np.stack([path(0.5)] * 3), atol=1e-6)
-    assert np.abs(end.positions[:, 4:] - cloth.rest_positions[4:]).max() > 0.02
 
 
 @each

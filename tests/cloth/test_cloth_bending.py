@@ -218,19 +218,6 @@ def test_a_fine_sheet_and_a_batch_bend_alike(name):
     assert low[0] == pytest.approx(low[1], abs=0.02)
 
 
-@pytest.mark.parametrize("name", ["desbrun", "xpbd", "pbd", "verlet", "provot", "implicit"])
-def test_bits_do_not_depend_on_threads_or_batches(name):
-    cloth = grid(5, 7, 0.6, 0.8, fabric=Fabric(0.3, bending=1e-3, damping=0.05))
-
-    def run(threads: int, count: int) -> np.ndarray:
-        method = solver(name, threads=threads)
-        return [*islice(simulate(cloth, method, every=30, count=count), 2)][-1].positions
-
-    both = run(2, 40)
-    assert np.array_equal(run(1, 40), both)
-    assert np.array_equal(run(1, 1)[0], both[0])
-
-
 def test_a_coarser_cloth_keeps_the_rigidity():
     fine = grid(9, 17, 1.0, 2.0, fabric=Fabric(bending=1e-3, damping=0.1))
     coarse = coarsen(fine)

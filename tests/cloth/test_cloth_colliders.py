@@ -447,24 +447,6 @@ def test_the_points_of_the_faces_are_each_tested_once():
         assert len(np.unique(places.round(9), axis=0)) == len(places)
 
 
-def test_a_batch_equals_its_cloths_alone_bit_for_bit():
-    random = np.random.default_rng(11)
-    cloth, positions = sheet(6, 6, 0.2, 0.7)
-    starts = positions + random.normal(size=(5, 1, 3)) * 0.1
-    speeds = random.normal(size=(5, 36, 3))
-    colliders = [
-        Collider(Sphere(ORIGIN, 0.5), path=straight((0.1, 0.2, 0))),
-        Collider(SHAPES["voxels"], path=lambda t: Pose(np.array([0, -1.5, 0]))),
-        Collider(SHAPES["mesh"], restitution=0.5),
-    ]
-    batch = list(fall(cloth, State(starts, speeds), colliders, 20, 1 / 60, order=2))[-1]
-    for b in range(5):
-        one = State(starts[b : b + 1], speeds[b : b + 1])
-        alone = list(fall(cloth, one, colliders, 20, 1 / 60, order=2))[-1]
-        np.testing.assert_array_equal(alone.positions[0], batch.positions[b])
-        np.testing.assert_array_equal(alone.velocities[0], batch.velocities[b])
-
-
 class Torus:
     """A user-defined shape about the y axis, in the shape's frame."""
 

@@ -15,7 +15,6 @@ from drapery.cloth import (
     Drag,
     Gravity,
     MovingCloth,
-    Wind,
     World,
     grid,
     max_stretch,
@@ -23,13 +22,11 @@ from drapery.cloth import (
     simulate,
 )
 from drapery.cloth.colliders import (
-    Capsule,
     Collider,
     Plane,
     Sphere,
     Voxels,
     mesh_collider,
-    swinging,
 )
 from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.colliders.packing import pack
@@ -86,14 +83,16 @@ def gaps(shape, points):
     return sample_distances(pack(shape), np.ascontiguousarray(points, float))
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize(("name", "side"), [*((name, 10) for name in SOLVERS), ("desbrun", 20)])
-def test_a_cloth_drapes_and_never_passes_through(name, side, shape):
-    cloth = grid(side, side, 1.2, 1.2, pins="none")
+DRAPED = [*((name, "sphere") for name in SOLVERS), ("xpbd", "insect"), ("xpbd", "voxels")]
+
+
+@pytest.mark.parametrize(("name", "shape"), DRAPED)
+def test_a_cloth_drapes_and_never_passes_through(name, shape):
+    cloth = grid(10, 10, 1.2, 1.2, pins="none")
     collisions = Collisions(
         [Collider(SHAPES[shape], friction=0.6), Collider(FLOOR, friction=0.6)],
         THICKNESS,
-        order=3 if side == 10 else 2,
+        order=3,
     )
     forces = [Gravity(), Drag(2.0)]
     start = level(cloth, 0.45)
@@ -115,57 +114,6 @@ def test_a_cloth_drapes_and_never_passes_through(name, side, shape):
 
 
 SHAPE_TOPS = {"sphere": 0.2, "insect": 0.15, "voxels": 0.3}
-
-
-@pytest.mark.parametrize("name", SOLVERS)
-def test_a_hanging_cloth_is_kicked_by_a_walking_leg(name):
-    cloth = grid(7, 9, 0.6, 0.8)
-    leg = Capsule(np.array([0.0, 0.2, -0.25]), np.array([0.0, -0.7, -0.25]), 0.07)
-    path = swinging((0.0, 0.2, -0.25), 35, 0.8, 0.0)
-    collisions = Collisions([Collider(leg, path)], 0.02, order=3)
-    pushed = 0.0
-    states = simulate(cloth, solver(name), [Gravity(), Drag(0.5)], collisions=collisions, every=4)
-    for state in itertools.islice(states, 1, 30):
-        pose = path(state.time)
-        local = (state.positions[0] - pose.position) @ pose.rotation
-        assert gaps(leg, local).min() >= 0.01 - 1e-5
-        pushed = max(pushed, float(state.positions[0, :, 2].max()))
-    assert pushed > 0.1
-    np.testing.assert_array_equal(state.positions[0, :7], rest_state(cloth).positions[0, :7])
-
-
-def test_a_batch_that_collides_equals_its_cloths_alone():
-    cloth = grid(6, 6, 0.8, 0.8)
-    ball = Sphere(np.array([0.1, -0.4, 0.2]), 0.18)
-    phases = np.arange(4) * 0.7
-    start = rest_state(cloth, 4)
-
-    def after(chosen, threads):
-        wind = Wind((0.0, 0.0, 3.0), phases=phases[chosen])
-        part = replace(
-            start, positions=start.positions[chosen], velocities=start.velocities[chosen]
-        )
-        collisions = Collisions([Collider(ball)], 0.02, threads=threads, apart=0.05)
-        return next(
-            itertools.islice(
-                simulate(
-                    cloth,
-                    solver("pbd", threads=threads),
-                    [Gravity(), wind],
-                    start=part,
-                    collisions=collisions,
-                    every=40,
-                ),
-                1,
-                None,
-            )
-        )
-
-    together = after(slice(0, 4), 2)
-    for b in range(4):
-        alone = after(slice(b, b + 1), 1)
-        np.testing.assert_array_equal(alone.positions[0], together.positions[b])
-        np.testing.assert_array_equal(alone.velocities[0], together.velocities[b])
 
 
 def test_solvers_are_found_by_name_with_their_options():

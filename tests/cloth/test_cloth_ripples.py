@@ -8,7 +8,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from drapery.cloth import Cloth, Fabric, State, Wind, disc, grid, rest_state, simulate, solver
+from drapery.cloth import Cloth, Fabric, Wind, disc, grid, rest_state, simulate, solver
 from drapery.cloth.ripples import PADDING, WAVES, waves_of
 from drapery.errors import OptionError
 
@@ -111,20 +111,6 @@ def test_the_first_step_gives_each_particle_the_force_of_the_waves(
     cell = 1.0 / (columns - 1) * 1.2 / (rows - 1)
     force = 0.25 * cell * cloth.inv_mass * (2.0 + pressure(wind, cloth, 0.0))
     np.testing.assert_allclose(speed[inner.ravel()], force[inner.ravel()], rtol=0.02, atol=0.02)
-
-
-@pytest.mark.parametrize("name", ["xpbd", "desbrun", "implicit"])
-def test_bits_do_not_depend_on_threads_or_batches(name: str) -> None:
-    cloth = grid(5, 7, 0.6, 0.8)
-    wind = replace(RIPPLED, vortices=0.3)
-
-    def run(threads: int, count: int) -> State:
-        states = simulate(cloth, solver(name, threads=threads), [wind], every=30, count=count)
-        return [*islice(states, 2)][-1]
-
-    both = run(2, 40).positions
-    assert np.array_equal(run(1, 40).positions, both)
-    assert np.array_equal(run(1, 1).positions[0], both[0])
 
 
 def test_ripples_blow_on_any_cloth_and_beside_other_winds() -> None:

@@ -10,9 +10,7 @@ from drapery.cloth import (
     SolverDesbrun,
     SolverXPBD,
     Wind,
-    carried,
     grid,
-    max_stretch,
     rest_state,
     simulate,
 )
@@ -46,37 +44,6 @@ def test_a_sheet_moves_like_the_same_cloth_in_a_batch(name, pins, monkeypatch):
     assert way > 0.1
     # Only the order of the corrections along a row differs.
     assert np.abs(sheet.positions - batch.positions).max() < 0.1 * way
-
-
-@each
-def test_a_batch_of_sheets_equals_each_alone_on_any_number_of_threads(name):
-    cloth = grid(17, 9, 0.8, 1.2)
-    phases = np.array([0.0, 3.0, 7.0])
-    blown = [Gravity(), Wind((1.0, 0.0, 3.0), phases=phases)]
-    solver = type(SOLVERS[name])
-    one, two = (
-        moved(cloth, solver(threads=threads), 20, count=3, forces=blown) for threads in (1, 2)
-    )
-    np.testing.assert_array_equal(one.positions, two.positions)
-    alone = [Gravity(), Wind((1.0, 0.0, 3.0), phases=phases[2:])]
-    last = moved(cloth, solver(), 20, forces=alone)
-    np.testing.assert_array_equal(last.positions[0], one.positions[2])
-    np.testing.assert_array_equal(last.velocities[0], one.velocities[2])
-
-
-@each
-def test_steps_together_or_apart_and_pins_on_a_path(name):
-    cloth = grid(17, 9, 0.8, 1.2)
-
-    def swing(time):
-        return np.eye(3), np.array([0.3 * np.sin(4 * time), 0.0, 0.2 * time])
-
-    path = carried(cloth.rest_positions, np.arange(17), swing)
-    one, many = (moved(cloth, SOLVERS[name], 20, every=every, pins=path) for every in (1, 20))
-    # The time is a sum of steps in one, a product in the other.
-    np.testing.assert_allclose(one.positions, many.positions, atol=1e-11)
-    np.testing.assert_allclose(one.positions[0, :17], path(20 / 60), atol=1e-12)
-    assert max_stretch(one.positions, cloth) < 0.08
 
 
 @each

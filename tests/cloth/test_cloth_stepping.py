@@ -1,7 +1,5 @@
 """Cloth stepped by hand: the motion of `simulate`, with forces that may change on the way."""
 
-from itertools import islice
-
 import numpy as np
 import pytest
 
@@ -12,27 +10,14 @@ from drapery.cloth import (
     Gravity,
     MovingCloth,
     Plane,
-    SolverVerlet,
     Wind,
     grid,
-    simulate,
 )
 from drapery.errors import OptionError
 
 CLOTH = grid(5, 9, 0.8, 1.6)
 WALL = Collisions((Collider(Plane(np.array([0.0, 0, 0.1]), np.array([0.0, 0, -1]))),), 0.02)
 FORCES: tuple[Force, ...] = (Gravity(), Wind((0.0, 0.0, 6.0)))
-
-
-@pytest.mark.parametrize("collisions", [None, WALL], ids=["free", "colliding"])
-def test_advances_of_any_length_give_the_bits_of_simulate(collisions) -> None:
-    states = simulate(CLOTH, SolverVerlet(), FORCES, collisions=collisions)
-    expected = next(islice(states, 30, None))
-    moving = MovingCloth.begin(CLOTH, SolverVerlet(), collisions=collisions)
-    for steps in (1, 17, 12):
-        moving = moving.advance(FORCES, steps)
-    assert np.array_equal(moving.state.positions, expected.positions)
-    assert np.array_equal(moving.state.velocities, expected.velocities)
 
 
 def test_forces_act_from_the_step_for_which_they_are_given() -> None:
