@@ -119,6 +119,21 @@ def flatten(material: Material) -> Material:
     return _sheet(material, np.concatenate([flat, texels[..., 3:]], axis=-1))
 
 
+@costs(4)
+def bevel(
+    material: Material,
+    *,
+    width: Annotated[int, Field(ge=1, le=4, description="of the edges [1/8 texel]")] = 1,
+    depth: Annotated[float, Field(ge=0, le=1, description="contrast of the edges")] = 0.4,
+) -> Material:
+    """Each texel as the side of a block: brighter at two of its edges, darker at the others."""
+    texels, fine = _enlarged(material, 8)
+    y, x = np.indices(texels.shape[:2]) % fine
+    wide = max(1, width * fine // 8)
+    lit, dark = (y < wide) | (x < wide), (y >= fine - wide) | (x >= fine - wide)
+    return _sheet(material, _shaded(texels, 1 + depth * (0.5 * lit - dark)))
+
+
 @costs(16)
 def hatch(
     material: Material,

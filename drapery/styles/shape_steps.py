@@ -19,6 +19,8 @@ from drapery.styles.step import costs
 
 THINNEST = 0.02
 """Level texels are at least this thick [texels]."""
+WITHIN = 0.48
+"""The part of a texel that a face of a block shows, to each side of its middle [texels]."""
 CUBE_FRONT = np.array([[-1.0, 1, 1], [1, 1, 1], [-1, -1, 1], [1, -1, 1]])
 """The four front corners of a cube of edge 2."""
 BLOCK_FACES = np.array(
@@ -364,11 +366,11 @@ def _at(rows: Array, down: Array, across: Array) -> Array:
 
 
 def _texel_uvs(size: tuple[int, int], uv_mapping: UVMapping) -> Array:
-    """The 24 texture coordinates of each cube, shape [M, 24, 2]: the middle of one texel a face."""
-    across, down = np.meshgrid(
-        (np.arange(size[0]) + 0.5) / size[0], (np.arange(size[1]) + 0.5) / size[1]
-    )
-    uvs = np.stack([across, down], axis=-1).reshape(-1, 2)
+    """The 24 texture coordinates of each cube, shape [M, 24, 2]: one texel a face, but its rim."""
+    column, row = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
+    middles = np.stack([column, row], axis=-1).reshape(-1, 1, 2)
+    corners = (middles + WITHIN * np.array([[-1, -1], [1, -1], [-1, 1], [1, 1]])) / np.array(size)
+    front = uv_mapping.front(corners.reshape(-1, 2)).reshape(-1, 4, 2)
+    back = uv_mapping.back(corners[:, [1, 0, 3, 2]].reshape(-1, 2)).reshape(-1, 4, 2)
     # The faces of a box: front, back, left, right, top, bottom, four corners each.
-    faces = [uv_mapping.front(uvs), uv_mapping.back(uvs), *[uv_mapping.front(uvs)] * 4]
-    return np.repeat(np.stack(faces, axis=1), 4, axis=1)
+    return np.concatenate([front, back, front, front, front, front], axis=1)

@@ -26,6 +26,7 @@ _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
         material_steps.felt,
         material_steps.embroider,
         material_steps.flatten,
+        material_steps.bevel,
         material_steps.hatch,
         material_steps.stained_glass,
         material_steps.palette,

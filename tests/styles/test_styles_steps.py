@@ -206,6 +206,27 @@ def test_a_palette_of_a_material_is_that_of_a_picture(tmp_path: Path) -> None:
     assert (step.kind, dict(step.parameters)["colours"]) == ("material", ("#000000", "#ff8000"))
 
 
+def test_bevelled_texels_have_one_bright_and_one_dark_corner() -> None:
+    texels = np.full((64, 64, 4), 100, np.uint8)
+    texels[..., 3] = 255
+    (layer,) = MATERIAL["bevel"](Material((TextureLayer(texels),)), depth=0.4).layers
+    texel = layer.texels[8:16, 16:24, 0]
+    assert texel[0, 0] == 120 and texel[-1, -1] == 60
+    assert (texel[1:-1, 1:-1] == 100).all()
+    assert np.array_equal(np.tile(texel, (64, 64)), layer.texels[..., 0])
+
+
+def test_each_face_of_a_cube_shows_its_texel_upright() -> None:
+    """Its corners lie in the texel of its middle, the upper left one above and to the left."""
+    sheet = rippled()
+    faces = SHAPE["voxels"](sheet).uvs.reshape(40, 20, 6, 4, 2)
+    middle = faces.mean(axis=3)
+    assert (np.abs(faces - middle[..., None, :]) * 64 < 0.5).all()
+    front, left = faces[3, 4, 0], faces[3, 4, 2]
+    assert np.array_equal(front, left)
+    assert (front[3] > front[0]).all() and np.allclose(front[1] - front[0], front[3] - front[2])
+
+
 def test_tears_stay_within_a_low_sheet() -> None:
     shell = grid_shell(9, 9, FLAG_MAPPING)
     flat = np.zeros((81, 3))
