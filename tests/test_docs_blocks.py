@@ -1,5 +1,6 @@
 """The docs tell the truth: their programs run, their commands exist, their pictures are made so."""
 
+import re
 import shutil
 from pathlib import Path
 
@@ -21,6 +22,8 @@ GUIDES = (
 TESTED = ("blazon", "garments", "solvers")
 """Pages that tests of their own run."""
 ALL = sorted([*ROOT.glob("*.md"), *DOCS.glob("**/*.md"), *ROOT.glob("examples/**/*.md")])
+TYPED = ("drapery", "just", "npm", "npx", "pip", "properdocs", "pytest", "python", "rattler-build")
+"""What pages tell every reader to type."""
 PICTURES = {"banner.png": 0, "heart.png": 0, "difference.png": 0.02}
 """Those of the tutorial, and the share of their numbers that may differ: one has labels."""
 
@@ -103,6 +106,24 @@ def test_every_command_of_a_page_exists_with_its_options(page: Path) -> None:
             for line, _ in commands(block.text):
                 if line.startswith("drapery "):
                     check_command(line)
+
+
+def test_a_command_can_be_typed_in_any_shell() -> None:
+    """cmd and PowerShell 5.1 know neither `&&` nor a backslash; cmd knows no single quotes."""
+    other = re.compile(r"&&|\\$|\$\(|^\w+=|^[^\"]*'")
+    assert other.search("pip install . && pytest") and other.search("drapery web 'white'")
+    assert not other.search("drapery web \"{text:'white'}\"")
+    found = []
+    for page in ALL:
+        for block in blocks(page):
+            if block.language in SHELL and not block.title:
+                lines = [line.removeprefix("$ ") for line in block.text.splitlines()]
+                found += [
+                    f"{page.name}, line {block.line}: {line}"
+                    for line in lines
+                    if line.partition(" ")[0] in TYPED and other.search(line)
+                ]
+    assert found == []
 
 
 def test_a_block_has_the_note_before_it_and_its_title(tmp_path: Path) -> None:
