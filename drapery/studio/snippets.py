@@ -137,7 +137,9 @@ def _player(request: ExportRequest) -> PlayerSettings | None:
     text = write_banner(request.banner, "shorthand")
     if request.garment is not None and _shows_design(request.garment):
         player = replace(player, worn_design=text)
-    return replace(player, **{"shield" if request.banner.kind == "shield" else "head": text})
+    if request.banner.kind == "shield":
+        return replace(player, shield=text)
+    return replace(player, head=text)
 
 
 def _player_words(player: PlayerSettings, called: Mapping[str, str]) -> dict[str, Any]:
