@@ -59,7 +59,7 @@ def test_a_picture_becomes_candidates_and_one_is_opened(page: Any, tmp_path: Pat
     panel.find_element(By.CSS_SELECTOR, "input[type=file]").send_keys(str(tmp_path / "face.png"))
     wait_until(lambda: "click one" in panel.find_element(By.CSS_SELECTOR, ".hint").text)
     pictures = panel.find_elements(By.CSS_SELECTOR, ".candidates button")
-    assert pictures[0].get_attribute("aria-label") == f"1: {described(sketch_of(design))}"
+    assert pictures[0].get_attribute("aria-label") == f"the same: 1: {described(sketch_of(design))}"
     pictures[0].click()
     wait_until(lambda: value(page, "written") == write_banner(design, "give"))
     panel.find_element(By.CSS_SELECTOR, "input[type=file]").send_keys(str(tmp_path / "words.png"))

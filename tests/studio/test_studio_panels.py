@@ -6,6 +6,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
 from fastapi import Request
 from nicegui import Client, core, ui
@@ -15,7 +16,10 @@ from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
 
 from drapery import Banner, Settings
 from drapery.banner import FORMS
-from drapery.errors import PackError
+from drapery.errors import OptionError, PackError
+from drapery.match import Match
+from drapery.render import png_bytes
+from drapery.studio.descriptions import described
 from drapery.studio.design_buttons import DesignButton
 from drapery.studio.exports import Export, ExportRequest
 from drapery.studio.file_field import FileField
@@ -28,6 +32,7 @@ from drapery.studio.panels import (
     letters,
     motion,
     packs,
+    picture,
     start,
     steps,
     written,
@@ -72,6 +77,13 @@ def texts(client: Client, prop: str = "") -> list[str]:
         str(each.props.get(prop, "") if prop else getattr(each, "text", ""))
         for each in client.elements.values()
     ]
+
+
+def emit(element: Element, event: str, args: Any) -> None:
+    """What the page does when an element emits an event."""
+    for listener in element._event_listeners.values():
+        if listener.type == event:
+            element._handle_event({"listener_id": listener.id, "args": args})
 
 
 def test_the_name_of_a_design_button_begins_with_its_text(in_page: Callable[..., None]) -> None:
@@ -135,9 +147,7 @@ def test_a_pack_that_cannot_be_switched_on_is_shown_as_it_is(
         session.listen(lambda: shown.append("packs"), "packs")
         monkeypatch.setattr(PackStore, "switch", refuse)
         (box,) = [e for e in client.elements.values() if e.props.get("type") == "checkbox"][:1]
-        for listener in box._event_listeners.values():
-            if listener.type == "change":
-                box._handle_event({"listener_id": listener.id, "args": {}})
+        emit(box, "change", {})
         await asyncio.sleep(0)
         assert shown == ["packs"]
 
@@ -163,8 +173,7 @@ def test_a_pack_without_a_texture_gets_a_warning(
             packs.build(session)
         upload = await session.uploads.receive(data(), "pack", "empty.zip")
         (field,) = [e for e in client.elements.values() if isinstance(e, FileField)]
-        for listener in field._event_listeners.values():
-            field._handle_event({"listener_id": listener.id, "args": {"number": upload.number}})
+        emit(field, "sent", {"number": upload.number})
         while not said:
             await asyncio.sleep(0.01)
         line, shown = said[0]
@@ -273,6 +282,44 @@ def test_a_page_is_offered_only_where_its_module_is_built(
     in_page(build)
 
 
+def test_the_corners_of_a_flag_that_is_not_found_are_clicked(
+    in_page: Callable[..., None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shape, corners = (1320, 200, 4), ((60, 40), (140, 40), (140, 200), (60, 200))
+
+    def match(pixels: np.ndarray, given: object, *, packs: object) -> list[Match]:
+        assert pixels.shape == shape
+        if given is None:
+            raise OptionError("no flag was found")
+        np.testing.assert_allclose(np.array(given), corners)
+        return [Match(BANNER, 0.03)]
+
+    async def data() -> AsyncIterator[bytes]:
+        yield png_bytes(np.zeros(shape, np.uint8))
+
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            picture.build(session)
+            said = described(sketch_of(BANNER))
+        field_of(client, "Es ist ein Foto eines Banners: aufrichten").take(True, 1)
+        upload = await session.uploads.receive(data(), "picture", "photo.png")
+        elements = client.elements.values()
+        field = next(e for e in elements if isinstance(e, FileField))
+        emit(field, "sent", {"number": upload.number})
+        while not any(text.startswith("Keine Fahne gefunden") for text in texts(client)):
+            await asyncio.sleep(0.01)
+        photo = next(e for e in elements if e.props.get("alt") == "photo.png")
+        assert is_seen(photo) and photo.props["src"].startswith("data:image/webp")
+        for x, y in corners:
+            emit(photo, "click", [x / shape[1], y / shape[0]])
+        while not (found := [e for e in elements if isinstance(e, DesignButton)]):
+            await asyncio.sleep(0.01)
+        assert found[0].props["aria-label"] == f"sehr nah: 1: {said}"
+
+    monkeypatch.setattr(picture, "match_photo", match)
+    in_page(build)
+
+
 def test_after_a_new_banner_a_dye_goes_to_the_field(in_page: Callable[..., None]) -> None:
     async def build(client: Client, session: Session) -> None:
         session.selection.press_pattern("minecraft:creeper")
@@ -300,9 +347,7 @@ def test_a_deleted_design_comes_back_after_another_is_opened(
             await asyncio.sleep(0.01)
         (found,) = named()
         assert is_seen(found)
-        for listener in found._event_listeners.values():
-            if listener.type == "click":
-                found._handle_event({"listener_id": listener.id, "args": {}})
+        emit(found, "click", {})
         while not until():
             await asyncio.sleep(0.01)
 

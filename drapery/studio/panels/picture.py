@@ -1,13 +1,16 @@
-"""From a picture to a design: drop a picture, watch the candidates improve, and open one."""
+"""From a picture to a design: drop a picture, watch the candidates improve, and open one.
 
-from collections.abc import Iterator
+Of a photo in which no flag is found, the user clicks the corners.
+"""
+
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
 from nicegui import context, ui
 from starlette.concurrency import run_in_threadpool
 
-from drapery import Banner, DraperyError
+from drapery import DraperyError, OptionError
 from drapery.banner import LOOM_LAYERS
 from drapery.file_formats import endings_read
 from drapery.match import (
@@ -19,11 +22,13 @@ from drapery.match import (
     match_photo,
     read_picture,
 )
-from drapery.packs import Packs
+from drapery.packs import Packs, Texels
 from drapery.studio.descriptions import described
 from drapery.studio.design_buttons import DesignButton, DesignList
 from drapery.studio.file_field import FileField
+from drapery.studio.notices import errors_shown
 from drapery.studio.panels.fields import Fields
+from drapery.studio.photo_corners import Corner, PhotoCorners
 from drapery.studio.session import Session
 from drapery.studio.sketch import sketch_of
 from drapery.studio.translation import translated
@@ -33,41 +38,69 @@ COUNT = 6
 """The most candidates."""
 EFFORT = 12
 """How many designs are changed at random and improved: a few seconds."""
+CLOSENESS = {0.01: "the same", 0.05: "very close", 0.12: "close"}
+"""Words for the error of a match that is at most so large."""
+NO_FLAG = (
+    "No flag was found: click its corners on the picture, first upper left, then upper right, lower"
+    " right and lower left."
+)
 
 
 def build(session: Session) -> None:
-    """A field for a picture, and the candidates."""
+    """A field for a picture, the picture, and the candidates."""
     client, fields = context.client, Fields(session)
     is_photo = False
-    newest = 0
+    searches = 0  # those begun so far; an earlier one ends when the next begins
+    shown: tuple[Texels, str] | None = None
 
     def set_photo(on: bool) -> None:
         nonlocal is_photo
         is_photo = on
 
+    def say(line: str) -> None:
+        with client:  # says the language
+            status.set_text(translated(line))
+
     async def take(number: int) -> None:
-        nonlocal newest
-        newest = number
+        nonlocal shown
         upload = session.uploads.get(number, "picture")
-        status.set_text(translated(f"Looking for designs like {upload.name} …"))
         try:
-            states = _states(upload.path, upload.name, session.packs(), is_photo)
-            shown: tuple[Match, ...] = ()
-            while (state := await run_in_threadpool(next, states, None)) is not None:
-                if session.closed or newest != number:
-                    return
-                if state.matches != shown:
-                    shown = state.matches
-                    with client:
-                        _show(session, candidates, shown)
-            line = f"The designs most like {upload.name}: click one to open it."
-            with client:
-                status.set_text(translated(line))
-        except DraperyError:
-            status.set_text("")
-            raise
+            pixels = await run_in_threadpool(_read, upload.path, upload.name)
         finally:
             session.uploads.remove(number)
+        shown = pixels, upload.name
+        with client:
+            photo.show(*shown)
+        await search()
+
+    async def search(corners: Sequence[Corner] | None = None) -> None:
+        nonlocal searches
+        searches += 1
+        mine = searches
+        assert shown is not None
+        pixels, name = shown
+        say(f"Looking for designs like {name} …")
+        states = _states(pixels, name, session.packs(), is_photo or corners is not None, corners)
+        matches: tuple[Match, ...] = ()
+        try:
+            while (state := await run_in_threadpool(next, states, None)) is not None:
+                if session.closed or searches != mine:
+                    return
+                if state.matches != matches:
+                    matches = state.matches
+                    with client:
+                        _show(session, candidates, matches)
+            line = f"The designs most like {name}: click one to open it."
+        except DraperyError as error:
+            if corners is not None or not is_photo or not isinstance(error, OptionError):
+                say("")
+                raise
+            line = NO_FLAG
+        say(line)
+
+    async def take_corners(corners: Sequence[Corner]) -> None:
+        with client, errors_shown():
+            await search(corners)
 
     translated_text("Picture", "h2").classes("heading")
     FileField(
@@ -81,19 +114,30 @@ def build(session: Session) -> None:
     with ui.element("div").classes("options"):
         fields.tick("It is a photo of a banner: set it upright", lambda: is_photo, set_photo)
     status = text_element("", "p").classes("hint").props('role="status"')
+    photo = PhotoCorners(take_corners)
     row = ui.element("div").classes("letters candidates").props('role="group"')
     row.props["aria-label"] = translated("Candidates")
     candidates = DesignList(row)
 
 
-def _states(path: Path, name: str, packs: Packs, is_photo: bool) -> Iterator[MatchProgress]:
-    """The states of the search for a picture's designs. Raises OptionError or PackError."""
+def _read(path: Path, name: str) -> Texels:
+    """The pixels of a picture. Raises OptionError with the user's name of the file."""
     try:
-        pixels = read_picture(path)
+        return read_picture(path)
     except DraperyError as error:  # it names the file as it is stored here
         raise type(error)(str(error).replace(path.name, name)) from None
+
+
+def _states(
+    pixels: Texels,
+    name: str,
+    packs: Packs,
+    is_photo: bool,
+    corners: Sequence[Corner] | None,
+) -> Iterator[MatchProgress]:
+    """The states of the search for a picture's designs. Raises OptionError or PackError."""
     if is_photo:
-        yield MatchProgress(1.0, tuple(match_photo(pixels, packs=packs)))
+        yield MatchProgress(1.0, tuple(match_photo(pixels, corners, packs=packs)))
         return
     seen = fit_picture(pixels, name=name)
     yield from Matcher(packs).iter_matches(
@@ -101,10 +145,21 @@ def _states(path: Path, name: str, packs: Packs, is_photo: bool) -> Iterator[Mat
     )
 
 
-def _show(session: Session, candidates: DesignList, matches: tuple[Match, ...]) -> None:
-    def candidate(number: int, banner: Banner) -> DesignButton:
-        words = f"{number}: {described(sketch_of(banner))}"
-        return DesignButton(session, "found", banner, label=words, side=50)
+def closeness(match: Match) -> str:
+    """How close a design is to the picture, in words."""
+    return next((words for most, words in CLOSENESS.items() if match.error <= most), "similar")
 
-    numbered = [(number, match.banner) for number, match in enumerate(matches, 1)]
-    candidates.show({each: partial(candidate, *each) for each in numbered})
+
+def _show(session: Session, candidates: DesignList, matches: tuple[Match, ...]) -> None:
+    def candidate(number: int, match: Match) -> DesignButton:
+        words = f"{number}: {described(sketch_of(match.banner))}"
+        text = translated(closeness(match))
+        return DesignButton(session, "found", match.banner, label=words, text=text, side=50)
+
+    numbered = enumerate(matches, 1)
+    candidates.show(
+        {
+            (number, match.banner, closeness(match)): partial(candidate, number, match)
+            for number, match in numbered
+        }
+    )
