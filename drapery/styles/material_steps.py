@@ -131,7 +131,8 @@ def bevel(
     y, x = np.indices(texels.shape[:2]) % fine
     wide = max(1, width * fine // 8)
     lit, dark = (y < wide) | (x < wide), (y >= fine - wide) | (x >= fine - wide)
-    return _sheet(material, _shaded(texels, 1 + depth * (0.5 * lit - dark)))
+    light: Array = np.asarray(1 + depth * (0.5 * lit - dark), np.float64)
+    return _sheet(material, _shaded(texels, light))
 
 
 @costs(16)
