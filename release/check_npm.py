@@ -34,10 +34,11 @@ def main(package: Path) -> None:
         npm(folder, "npm", "install", "--no-audit", "--no-fund", *TOOLS, package.resolve())
         npm(folder, "npx", "tsc", *TYPES.split(), "main.ts")
         npm(folder, "npx", "vite", "build", "--base=/banners/")
-        needed = {each.stem for each in folder.glob("node_modules/drapery-banner/*.bin")}
-        made = {each.stem.rpartition("-")[0] for each in folder.glob("dist/assets/*.bin")}
-        if not needed or needed != made:
-            raise SystemExit(f"the site has {sorted(made)} of {sorted(needed)}")
+        made = {each.read_bytes() for each in folder.glob("dist/assets/*.bin")}
+        needed = [*folder.glob("node_modules/drapery-banner/*.bin")]
+        lost = sorted(each.name for each in needed if each.read_bytes() not in made)
+        if not needed or lost:
+            raise SystemExit(f"the site has {len(made)} files, and lacks {', '.join(lost)}")
     print(f"{package.name}: types, and {len(needed)} files in the site that Vite builds")
 
 
