@@ -2,6 +2,7 @@
 
 from base64 import b64encode
 from collections.abc import Awaitable, Callable, Sequence
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -9,7 +10,7 @@ from nicegui.element import Element
 
 from drapery.packs import Texels
 from drapery.render import webp_bytes
-from drapery.studio.widgets import set_props
+from drapery.studio.widgets import KeptElements, set_props
 
 LONGEST = 640
 """The longest side of the picture that is sent to the page [pixels]."""
@@ -32,10 +33,10 @@ class PhotoCorners(Element):
         self._take = take
         self._size = (1, 1)
         self._corners: list[Corner] = []
-        self._marks: list[Element] = []
         self.classes("photo").set_visibility(False)
         with self:
             self._picture = ui.element("img").on("click", self._click, js_handler=PLACE)
+            self._marks: KeptElements[Element] = KeptElements(ui.element("div"))
 
     def show(self, pixels: Texels, name: str) -> None:
         """Show a picture, uint8 [H, W, 4], under the user's name of its file."""
@@ -44,23 +45,20 @@ class PhotoCorners(Element):
         data = b64encode(webp_bytes(pixels[::step, ::step], quality=QUALITY)).decode()
         self._size = width, height
         set_props(self._picture, {"src": f"data:image/webp;base64,{data}", "alt": name})
-        self._forget()
+        self._set_corners([])
         self.set_visibility(True)
 
-    def _forget(self) -> None:
-        self._corners = []
-        for mark in self._marks:
-            mark.delete()
-        self._marks = []
+    def _mark(self, corner: Corner) -> Element:
+        left, top = (100 * at / side for at, side in zip(corner, self._size, strict=True))
+        return ui.element("span").classes("photo-corner").style(f"left: {left}%; top: {top}%")
+
+    def _set_corners(self, corners: Sequence[Corner]) -> None:
+        self._corners = [*corners]
+        self._marks.show({place: partial(self._mark, place[1]) for place in enumerate(corners)})
 
     async def _click(self, event: Any) -> None:
         across, down = (min(1.0, max(0.0, float(share))) for share in event.args)
-        if len(self._corners) == 4:
-            self._forget()
-        self._corners.append((across * self._size[0], down * self._size[1]))
-        with self:
-            mark = ui.element("span").classes("photo-corner")
-            mark.style(f"left: {100 * across:.2f}%; top: {100 * down:.2f}%")
-        self._marks.append(mark)
+        before = self._corners if len(self._corners) < 4 else []
+        self._set_corners([*before, (across * self._size[0], down * self._size[1])])
         if len(self._corners) == 4:
             await self._take(self._corners)
