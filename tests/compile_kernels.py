@@ -1,4 +1,4 @@
-"""Compile the kernels that most tests use: `python tests/compile_kernels.py single|double|web`.
+"""Compile the kernels that most tests use: `python tests/compile_kernels.py PART`.
 
 `pytest` does so before its workers start, each part in a process: they have no kernel in common.
 Otherwise each worker compiles what it needs, and many kernels are compiled twice.
@@ -7,11 +7,15 @@ Otherwise each worker compiles what it needs, and many kernels are compiled twic
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import redirect_stdout
 from importlib.util import find_spec
+from io import StringIO
 from itertools import islice
+from pathlib import Path
 from typing import get_args
 
 import numpy as np
+import pytest
 from tracing import untraced_environment
 
 from drapery import Banner, draw
@@ -81,7 +85,21 @@ def web() -> None:
     built_module()
 
 
-PARTS: dict[str, Callable[[], None]] = {"single": single, "double": double, "web": web}
+def tests() -> None:
+    """The bytecode of the test files, whose assertions pytest rewrites: half a minute, which each
+    worker would take. Where some is stored already, few files need it."""
+    folder = Path(__file__).parent
+    if not sys.dont_write_bytecode and not any(folder.glob("*/__pycache__/*-pytest-*.pyc")):
+        with redirect_stdout(StringIO()):  # a file that cannot be read is reported by the workers
+            pytest.main(["-n", "0", "--collect-only", "-p", "no:cacheprovider", str(folder)])
+
+
+PARTS: dict[str, Callable[[], None]] = {
+    "single": single,
+    "double": double,
+    "web": web,
+    "tests": tests,
+}
 
 
 def compile_all() -> None:
