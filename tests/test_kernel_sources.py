@@ -19,7 +19,6 @@ from source_modules import FOLDERS, modules
 from drapery import kernel_sources
 from drapery.jit import EntryPoint, Kernel
 
-ALL = sorted(chain.from_iterable(map(kernels, modules())))
 KEYS = """
 import json, sys
 from importlib import import_module
@@ -31,9 +30,15 @@ print(json.dumps([[[name, key] for name, key in found.items()], unwanted]))
 
 
 @cache
+def all_kernels() -> list[Place]:
+    """All functions that are compiled: reading every module takes seconds."""
+    return sorted(chain.from_iterable(map(kernels, modules())))
+
+
+@cache
 def entry_points() -> dict[Place, EntryPoint]:
     """The kernels that Python calls."""
-    found = {place: getattr(import_module(place.module), place.name) for place in ALL}
+    found = {place: getattr(import_module(place.module), place.name) for place in all_kernels()}
     return {place: made for place, made in found.items() if isinstance(made, EntryPoint)}
 
 
@@ -46,7 +51,7 @@ def compiled_by(place: Place) -> list[Place]:
 @cache
 def of_kernels() -> frozenset[Place]:
     """The functions that kernels are made of."""
-    loaded = (vars(import_module(name)) for name in {place.module for place in ALL})
+    loaded = (vars(import_module(name)) for name in {place.module for place in all_kernels()})
     made = (each for values in loaded for each in values.values() if isinstance(each, Kernel))
     return frozenset(Place(k.py_func.__module__, k.py_func.__qualname__) for k in made)
 
@@ -87,8 +92,8 @@ def test_an_edit_of_any_function_that_a_kernel_is_compiled_from_changes_its_key(
 
 def test_every_kernel_is_found() -> None:
     """What reading the modules finds is what they hold when they are imported."""
-    found = {f"{place.module}.{place.name}" for place in ALL}
-    for name in {place.module for place in ALL}:
+    found = {f"{place.module}.{place.name}" for place in all_kernels()}
+    for name in {place.module for place in all_kernels()}:
         for key, value in vars(import_module(name)).items():
             if isinstance(value, Kernel) and value.__module__ == name:
                 assert f"{name}.{key}" in found
@@ -183,7 +188,9 @@ def copy_of(root: Path, path: Path) -> Path:
 def test_an_edit_of_files_without_kernels_changes_no_key(tmp_path: Path, copied: Copied) -> None:
     before = copied()
     used = {place.module for kernel in entry_points() for place in compiled_by(kernel)}
-    used |= {place.module for kernel in ALL for place in reached(kernel) if place.name == WHOLE}
+    used |= {
+        place.module for kernel in all_kernels() for place in reached(kernel) if place.name == WHOLE
+    }
     used.add("drapery.jit_calls")
     others = {name: path for name, path in modules().items() if name not in used}
     assert {"drapery.cloth.fabric", "drapery.render.camera"} <= set(others)
