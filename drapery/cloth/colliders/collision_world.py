@@ -120,7 +120,7 @@ class CollisionWorld:
         parts = self._sweeps(before.time, after.time, PARTS) if crossed.any() else []
 
         def finish(first: int, last: int) -> None:
-            for cloth in np.flatnonzero(crossed[first:last]) + first:
+            for cloth in (first + int(each) for each in np.flatnonzero(crossed[first:last])):
                 here = one_of(motion, cloth)
                 here.x[:], here.v[:], here.bounced[:] = solved[cloth], speeds[cloth], False
                 self._resolve_in_parts(here, parts, dt / PARTS)
@@ -153,7 +153,7 @@ class CollisionWorld:
                 shorten_all(first, last, motion.x, self.attachments, active)
         active[:] = True
         for _ in range(SHORTENING_ROUNDS):
-            for cloth in np.flatnonzero(active[first:last]) + first:
+            for cloth in (first + int(each) for each in np.flatnonzero(active[first:last])):
                 active[cloth] = limit_strain(motion.start[cloth], motion.x[cloth], self.limit)
             if not active[first:last].any():
                 break
@@ -224,7 +224,10 @@ class CollisionWorld:
 
 def one_of(motion: ClothMotion, cloth: int) -> ClothMotion:
     """One cloth of a motion, as a motion of one."""
-    return ClothMotion(*(values[cloth : cloth + 1] for values in motion))
+    chosen = slice(cloth, cloth + 1)
+    return ClothMotion(
+        motion.start[chosen], motion.x[chosen], motion.v[chosen], motion.bounced[chosen]
+    )
 
 
 def sweep_between(start: Pose, end: Pose) -> RigidSweep:
