@@ -183,12 +183,14 @@ class CollisionWorld:
 
     def _part(self, motion: ClothMotion) -> float:
         """Resolve the contact of one cloth with itself; returns how far that moved a particle along
-        an axis, as a part of the thickness."""
+        an axis, as a part of the thickness. It is 0 where edges have no length, and so no room to
+        be kept apart."""
         if self.self_contact is None:
             return 0.0
         before = motion.x.copy()
         resolve_block(motion.start, motion.x, (0, 1), NO_CONTACT, self.self_contact)
-        return float(np.abs(motion.x - before).max()) / self.self_contact.thickness
+        thickness = self.self_contact.thickness
+        return float(np.abs(motion.x - before).max()) / thickness if thickness else 0.0
 
     def _is_in_itself(self, motion: ClothMotion, cloth: int) -> bool:
         """Whether contact of a cloth with itself would have to move it once more."""
