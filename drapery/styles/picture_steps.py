@@ -272,7 +272,7 @@ def _between_dark(words: Words, edges: NDArray[np.uint64], limit: int) -> NDArra
     for down, right in ((0, 0), (-1, 0), (1, 0), (0, -1), (0, 1)):
         row, column = np.clip(y + down, 0, height - 1), np.clip(x + right, 0, width - 1)
         beside = as_pixels(words[row, column][None])[0].astype(np.int32)
-        bright = beside[:, :3] @ np.array([299, 587, 114])
+        bright = (beside[:, :3] * (299, 587, 114)).sum(axis=1)
         dark &= (bright < 1000 * limit) & (beside[:, 3] > 0)
     result = np.zeros_like(edges)
     result.view(np.uint8)[y[dark], x[dark]] = 1
