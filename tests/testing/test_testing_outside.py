@@ -23,6 +23,9 @@ def test_creeper(golden):
     golden(draw(banner, packs=["pack"], size=(96, 128)), banner=banner, packs=["pack"])
 """
 
+NOT_OURS = ("cacheprovider", "hypothesispytest", "anyio", "beet", "pytest_cov")
+"""Plugins that the lent packages bring: their imports take over half of a short run."""
+
 Pytest = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -53,7 +56,8 @@ def outside(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path
     clean = {k: v for k, v in os.environ.items() if not k.startswith(("PYTEST", "PYTHONPATH"))}
 
     def run(*words: str) -> subprocess.CompletedProcess[str]:
-        command = [str(python), "-m", "pytest", "-q", "-p", "no:cacheprovider", *words]
+        plain = [word for name in NOT_OURS for word in ("-p", f"no:{name}")]
+        command = [str(python), "-m", "pytest", "-q", *plain, *words]
         return subprocess.run(command, cwd=project, env=clean, capture_output=True, text=True)
 
     (project / "test_banner.py").write_text(PROJECT_TEST)
