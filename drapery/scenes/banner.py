@@ -106,7 +106,9 @@ def _flag(
 
 
 def _framed_points() -> Array:
-    """What the camera frames: the ground and the height of the banners [m]."""
-    return np.array(
-        [[x, y, z] for x in (-2, 2) for y, z in ((-1, 1), (0, -1), (1.95, -0.5), (1.95, 0.5))]
-    )
+    """What the camera frames: the ground, the height of the banners, and where the wind swings the
+    right one [m]."""
+    standing = [
+        (x, y, z) for x in (-2, 2) for y, z in ((-1, 1), (0, -1), (1.95, -0.5), (1.95, 0.5))
+    ]
+    return np.array([*standing, (2.6, 1.0, 1.3)])
