@@ -47,7 +47,8 @@ def tables_module() -> str:
         "placements": PLACEMENTS,
         "worn": WORN,
         "poses": list(POSES),
-        "bounds": {name: OPTIONS[name].bounds for name in ("wind", "direction")},
+        "bounds": {name: OPTIONS[name].bounds for name in ("wind", "direction", "seed")}
+        | {"phase": OPTIONS["time"].bounds},
         "styles": _styles(PATH.with_name("element.css")),
     }
     return _module(("drapery.banner, drapery.style", "and element.css"), {"TABLES": tables})

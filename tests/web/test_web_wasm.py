@@ -16,7 +16,7 @@ pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery-mc[de
 from wasm_player import WasmPlayer, built_module, quick_settings, white_banner
 
 from drapery import Banner, DraperyError, Settings
-from drapery.cloth import SolverPBD
+from drapery.cloth import SolverPBD, Wind
 from drapery.cloth.forces import lower_forces
 from drapery.packs import open_packs
 from drapery.render import draw_scene
@@ -132,6 +132,21 @@ def test_a_turned_wind_has_the_bits_of_python_and_its_gusts_do_not_jump() -> Non
     image = player.image()
     for array in (gusts.numbers, gusts.phases, gusts.rates, gusts.sines, gusts.cosines):
         assert array.tobytes() in image
+
+
+def test_a_seed_and_a_phase_of_the_host_are_those_of_a_wind() -> None:
+    velocity = (0.5, 0.0, 5.0)
+    settings = quick_settings(wind=Wind(velocity, seed=9, phases=2.5))
+    live = LiveBody(white_banner(settings), settings)
+    live.advance(60)
+    player = WasmPlayer(built_module(), plan_of(quick_settings(wind=Wind(velocity))))
+    player.write("seeds", 9)
+    player.write("phases", *(LANES * [2.5]))
+    player.run("aim")
+    player.step(60)
+    state = live.cloths[0].state
+    played = digest(player.read("positions"), player.read("velocities"))
+    assert played == digest(state.positions[0], state.velocities[0])
 
 
 def phases_at(time: float, gusts: Any) -> Any:

@@ -20,17 +20,20 @@ export function readDesign(text: string): Design;
  * `<drapery-banner design="white creeper:lime" wind="4">`.
  *
  * Attributes: `design`; `kind` ("standing" or "wall"); `wind` [m/s]; `direction`, to which the wind
- * blows [degrees]; `paused`; `alt`. Events: `drapery-ready`; `drapery-error`, whose `detail` is the
- * line of the console.
+ * blows [degrees]; `seed` of the gusts, a whole number; `phase`, how far ahead they are [s]; `paused`;
+ * `alt`. Events: `drapery-ready`, also after each change that is shown; `drapery-error`, whose `detail`
+ * is the line of the console; `drapery-pause`, whose `detail` is `paused`.
  */
 export class DraperyBanner extends HTMLElement {
-  /** Whether its cloth is still. */
+  /** Whether its cloth is still; until it is set, as the attribute and the system's reduced motion say. */
   paused: boolean;
   /** The attributes as properties; null where there is none, and removes one. */
   design: string | null;
   kind: string | null;
   wind: string | number | null;
   direction: string | number | null;
+  seed: string | number | null;
+  phase: string | number | null;
   alt: string | null;
   /** A PNG of what is seen now. */
   snapshot(): Promise<Blob>;
@@ -42,7 +45,7 @@ export class DraperyBanner extends HTMLElement {
  * `<drapery-player>`: a player with cloth on its back.
  *
  * Attributes: `skin` and `cape`, addresses of PNG files; `pose` ("walk", "stand", "run" or
- * "sneak"); `kind` ("cape" or "elytra"); and `wind`, `direction`, `paused` and `alt` as above.
+ * "sneak"); `kind` ("cape" or "elytra"); and the attributes of wind, `paused` and `alt` as above.
  */
 export class DraperyPlayer extends DraperyBanner {
   skin: string | null;

@@ -7,7 +7,8 @@ import { TABLES } from "./tables.js";
 import { isSlim, readTexture, wholeSkin } from "./textures.js";
 
 const FOLLOW = 75; // so far the wind turns to each side with the pointer [degrees]
-const ATTRIBUTES = ["kind", "wind", "direction", "paused", "alt"];
+const ATTRIBUTES = ["kind", "wind", "direction", "seed", "phase", "paused", "alt"];
+const LESS_MOTION = globalThis.matchMedia?.("(prefers-reduced-motion: reduce)");
 
 export class DraperyBanner extends HTMLElement {
   static observedAttributes = ["design", ...ATTRIBUTES];
@@ -16,7 +17,10 @@ export class DraperyBanner extends HTMLElement {
   #starts = 0;
   #player = null;
   #seen = true;
-  #wind = { wind: undefined, direction: undefined };
+  #wind = { wind: undefined, direction: undefined, seed: undefined, phase: undefined };
+  #isPaused = undefined; // as the user or the page wants it now; else as the attribute and the system say
+  #isStarting = false;
+  #isChanged = false; // since the page was told
   #told = new Set();
   #canvas = document.createElement("canvas");
   #slot = document.createElement("slot");
@@ -38,31 +42,49 @@ export class DraperyBanner extends HTMLElement {
 
   // Whether its cloth is still; the space bar changes it too.
   get paused() {
-    return this.hasAttribute("paused");
+    return this.#isPaused ?? (this.hasAttribute("paused") || LESS_MOTION.matches);
   }
 
   set paused(paused) {
-    this.toggleAttribute("paused", paused);
+    if (this.isConnected) this.#pause(Boolean(paused));
+    else this.toggleAttribute("paused", paused);
   }
 
   connectedCallback() {
     takeOver(this, this.constructor.observedAttributes);
-    if (matchMedia("(prefers-reduced-motion: reduce)").matches) this.paused = true;
+    LESS_MOTION.addEventListener("change", this.#settle);
     this.#observers.forEach((each) => each.observe(this));
-    this.#start();
+    if (!this.#player && !this.#isStarting) this.#start();
   }
 
+  // An element that is put elsewhere goes on as it is.
   disconnectedCallback() {
-    this.#observers.forEach((each) => each.disconnect());
-    this.#starts++;
-    this.#show(null);
+    queueMicrotask(() => {
+      if (this.isConnected) return;
+      LESS_MOTION.removeEventListener("change", this.#settle);
+      this.#observers.forEach((each) => each.disconnect());
+      this.#starts++;
+      this.#isStarting = false;
+      this.#show(null);
+    });
   }
 
-  attributeChangedCallback(name) {
-    if (!this.isConnected) return;
+  connectedMoveCallback() {}
+
+  attributeChangedCallback(name, before, now) {
+    if (!this.isConnected || before === now) return;
+    if (name === "paused") return this.#pause(undefined);
     const isSource = this.constructor.sources.includes(name);
     if (this.#player && !isSource) this.#apply(name);
     else if (isSource || name === "design") this.#start();
+  }
+
+  #settle = () => this.#pause(undefined);
+
+  #pause(isPaused) {
+    this.#isPaused = isPaused;
+    this.#play();
+    this.dispatchEvent(new CustomEvent("drapery-pause", { detail: this.paused, bubbles: true }));
   }
 
   // A PNG of what is seen now, as a Blob.
@@ -94,6 +116,7 @@ export class DraperyBanner extends HTMLElement {
 
   async #start() {
     const start = ++this.#starts;
+    this.#isStarting = true;
     try {
       const [name, textures] = await this.source();
       const isWanted = () => start === this.#starts;
@@ -102,6 +125,8 @@ export class DraperyBanner extends HTMLElement {
       else player?.end();
     } catch (error) {
       if (start === this.#starts) this.#tell(error);
+    } finally {
+      if (start === this.#starts) this.#isStarting = false;
     }
   }
 
@@ -112,8 +137,7 @@ export class DraperyBanner extends HTMLElement {
     this.#canvas.hidden = !player;
     this.#slot.hidden = Boolean(player);
     if (!player) return;
-    this.#apply("design", "wind", "direction");
-    this.dispatchEvent(new CustomEvent("drapery-ready", { bubbles: true }));
+    this.#apply("design", ...Object.keys(this.#wind));
   }
 
   // Do what attributes say. Only those that have changed are read: a wrong value is told once.
@@ -122,14 +146,23 @@ export class DraperyBanner extends HTMLElement {
       this.#try((player) => {
         if (name === "design") player.setDesign(this.getAttribute(name));
         else if (name in this.#wind) this.#wind[name] = numberOf(name, this.getAttribute(name));
+        this.#isChanged = true;
       });
+    queueMicrotask(() => this.#announce());
     this.#try((player) => this.#blow(player));
     this.#canvas.setAttribute("aria-label", this.getAttribute("alt") ?? this.words(this.#player.design));
     this.#play();
   }
 
+  // One event for all that a page changes at once.
+  #announce() {
+    if (!this.#isChanged || !this.#player || this.#isStarting) return;
+    this.#isChanged = false;
+    this.dispatchEvent(new CustomEvent("drapery-ready", { bubbles: true }));
+  }
+
   #blow(player, direction = this.#wind.direction) {
-    player.setWind(this.#wind.wind, direction);
+    player.setWind({ ...this.#wind, direction });
   }
 
   // Act on the live cloth, if there is any, and draw it again.

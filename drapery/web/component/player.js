@@ -6,7 +6,7 @@ import { add, dot, length, readCamera, scale, subtract, unit } from "../viewer/m
 import { unpack } from "../viewer/messages.js";
 import { View } from "../viewer/view.js";
 import { DesignError, readDesign } from "./design.js";
-import { draw, fileBytes, players, sharedContext, wake } from "./shared.js";
+import { draw, fileBytes, players, sharedContext, wake, wholeContext } from "./shared.js";
 import { TABLES } from "./tables.js";
 import { retextured } from "./textures.js";
 
@@ -19,7 +19,7 @@ export class Player extends View {
   // design, or null. textures: pixels in place of the scene's own, by name. isWanted: asked when the
   // files are there; without it there is no player, and no memory is taken.
   static async open(canvas, name, text, textures, isWanted) {
-    sharedContext();
+    await wholeContext();
     const [scene, module] = await Promise.all([name, MODULE].map(fileBytes));
     if (!isWanted()) return null;
     const { header, arrays } = retextured(unpack(scene.buffer), textures);
@@ -33,7 +33,7 @@ export class Player extends View {
 
   constructor(canvas, header, arrays) {
     super(canvas);
-    Object.assign(this, { header, arrays, playing: false, owed: 0, moved: false, grab: null });
+    Object.assign(this, { header, arrays, given: {}, playing: false, owed: 0, moved: false, grab: null });
     this.cameras = header.cameras.list.map(readCamera);
   }
 
@@ -79,15 +79,21 @@ export class Player extends View {
     return [changed, Int32Array.from([...layers, ...rows])];
   }
 
-  // speed: [m/s]. heading: to which it blows [degrees from +z towards +x]. Undefined: as planned.
-  setWind(speed, heading) {
-    for (const cloth of this.cloths) {
-      const { wind, heading: planned } = cloth.info;
-      const angle = ((heading ?? planned) * Math.PI) / 180;
-      const rate = speed ?? Math.hypot(wind[0], wind[2]);
-      const isPlanned = speed === undefined && heading === undefined;
-      cloth.setWind(...(isPlanned ? wind : [rate * Math.sin(angle), 0, rate * Math.cos(angle)]));
-    }
+  // given: wind, its speed [m/s]; direction, to which it blows [degrees from +z towards +x]; seed and
+  // phase, as `Cloth.setGusts` has them. What is undefined is as planned.
+  setWind(given) {
+    this.given = given;
+    this.cloths.forEach((cloth) => this.blow(cloth));
+  }
+
+  blow(cloth) {
+    const { wind: speed, direction, seed, phase } = this.given;
+    const { wind, heading } = cloth.info;
+    const angle = ((direction ?? heading) * Math.PI) / 180;
+    const rate = speed ?? Math.hypot(wind[0], wind[2]);
+    const isPlanned = speed === undefined && direction === undefined;
+    cloth.setGusts(seed, phase);
+    cloth.setWind(...(isPlanned ? wind : [rate * Math.sin(angle), 0, rate * Math.cos(angle)]));
   }
 
   // Move the cloth for one frame; whether there will be another one.
@@ -108,6 +114,7 @@ export class Player extends View {
         cloth.step(steps);
       } catch {
         cloth.reset(); // it has blown up
+        this.blow(cloth);
       }
     }
     this.upload();

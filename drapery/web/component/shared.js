@@ -17,12 +17,19 @@ export function sharedContext() {
   gl = canvas.getContext("webgl2", { alpha: true, antialias: false, depth: false });
   if (!gl) throw new Error("WebGL 2 is missing");
   sheet = new Sheet(gl, rest);
+  watchPixels();
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
   canvas.addEventListener("webglcontextrestored", () => {
     sheet = new Sheet(gl, rest);
     players.forEach((player) => player.restore());
   });
   return gl;
+}
+
+// The context when it draws: one that the system has taken away comes back later.
+export async function wholeContext() {
+  const { canvas } = sharedContext();
+  if (gl.isContextLost()) await new Promise((done) => canvas.addEventListener("webglcontextrestored", done, { once: true }));
 }
 
 // Draw players into their canvases.
@@ -56,6 +63,16 @@ function tick(now) {
   }
   if (awake.size) frame ||= requestAnimationFrame(tick);
   draw(moved.filter((player) => players.has(player)));
+}
+
+// Pages are zoomed and move to other screens.
+function watchPixels() {
+  const watched = matchMedia(`(resolution: ${devicePixelRatio}dppx)`);
+  const change = () => {
+    players.forEach(wake);
+    watchPixels();
+  };
+  watched.addEventListener("change", change, { once: true });
 }
 
 // The names of the scenes that the page holds itself.

@@ -19,6 +19,6 @@ export const TABLES = {
   "placements": ["standing", "wall"],
   "worn": ["cape", "elytra"],
   "poses": ["walk", "stand", "run", "sneak"],
-  "bounds": {"wind": [0, 40.0], "direction": [-360, 360]},
+  "bounds": {"wind": [0, 40.0], "direction": [-360, 360], "seed": [0, 4294967295], "phase": [0, 3600]},
   "styles": ":host { display: inline-block; inline-size: 14rem; aspect-ratio: 2 / 3; } :host([hidden]), canvas[hidden], slot[hidden] { display: none; } canvas { inline-size: 100%; block-size: 100%; display: block; touch-action: pan-y pinch-zoom; } canvas:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; } ::slotted(img) { inline-size: 100%; block-size: 100%; object-fit: contain; }",
 };

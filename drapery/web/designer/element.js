@@ -343,7 +343,7 @@ export class DraperyDesigner extends HTMLElement {
     });
     banner.addEventListener("drapery-ready", () => (fault.hidden = true));
     const pause = make("button", { type: "button", class: "icon pause", onclick: () => (banner.paused = !banner.paused) });
-    new MutationObserver(() => this.#showPause()).observe(banner, { attributes: true, attributeFilter: ["paused"] });
+    banner.addEventListener("drapery-pause", () => this.#showPause());
     const number = (/** @type {"wind" | "direction"} */ name, /** @type {string} */ unit) => {
       const [least, most] = TABLES.bounds[name];
       const change = (/** @type {number} */ value) => this.#change(this.#moved({ [name]: value }), name);

@@ -28,6 +28,7 @@ or written for another version of the module.
 | `normals` | Float32Array [V * 3]: unit normals |
 | `light` | Float32Array [V]: brightness 0..1 of each vertex, of the plan's light without shadows |
 | `setWind(x, y, z)` | the free mean wind in the frame of the body [m/s]; gusts do not jump |
+| `setGusts(seed, phase = 0)` | the seed of the gusts, 0 to 4294967295; how far ahead they are [s] |
 | `pull(index, x, y, z)` | pulls a particle and those near it to a place in the panel's frame |
 | `release()` | ends the pull |
 | `reset()` | back to the start: rest shape, time 0, the plan's own wind |

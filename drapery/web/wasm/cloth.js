@@ -1,6 +1,7 @@
 // Plays cloth with the kernels of the simulation; the Python package drapery.web.wasm documents it.
 
 const ARRAYS = { float32: Float32Array, float64: Float64Array, int32: Int32Array, int64: BigInt64Array, uint32: Uint32Array };
+const GOLDEN = (Math.sqrt(5) - 1) / 2; // multiples of it, without their whole parts, are far from each other
 const loaded = new WeakMap();
 
 // The kernels of a module in memory of their own, which all cloths of a page share.
@@ -54,6 +55,7 @@ export class Cloth {
     for (const at of info.pointers) view.setUint32(at, place + view.getUint32(at, true), true);
     for (const [at, name] of info.functions) view.setBigInt64(at, BigInt(exports[name]()), true);
     this.written = new Set(); // the calls that have written what the cloth now looks like
+    Object.assign(this, { seed: this.array("seeds")[0], phase: 0 });
     this.call("aim");
   }
 
@@ -79,6 +81,16 @@ export class Cloth {
   setWind(...wind) {
     this.array("wind").set(wind);
     this.call("aim");
+  }
+
+  // The gusts of a seed, by default the planned one, so many seconds ahead. A seed also has waves of its own.
+  setGusts(seed = this.seed, phase = 0) {
+    const [seeds, phases, turns] = ["seeds", "phases", "turns"].map((name) => this.array(name));
+    const other = seed - seeds[0];
+    seeds[0] = seed;
+    turns.forEach((turn, wave) => (turns[wave] = (turn + other * GOLDEN * (wave + 1)) % 1));
+    phases.forEach((before, lane) => (phases[lane] = before + phase - this.phase));
+    this.phase = phase;
   }
 
   pull(index, ...target) {
