@@ -6,12 +6,15 @@ import sys
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
+import numpy as np
 import pytest
 
+from drapery.cloth import Collider, Collisions, Gravity, MovingCloth, Plane, grid, solver
 from drapery.commands import notices
 from drapery.jit import called_next, expected_call
+from drapery.settings import SolverName
 
 KERNEL = """
 from drapery.jit import entry_point
@@ -90,3 +93,25 @@ def test_a_command_starts_them_when_it_compiles_a_kernel_of_cloth(
     assert [words for words, *_ in started] == [["drapery.render.soft"], []]
     assert b"resolve" in started[1][1]
     assert capsys.readouterr().err.count("happens once and takes up to a minute") == 2
+
+
+@pytest.mark.parametrize("name", get_args(SolverName))
+def test_whatever_a_step_compiles_first_the_kernel_of_its_solver_is_known(
+    name: SolverName, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The longest of all; compiled after what it calls by address, it doubles the time."""
+    known = []
+
+    def address_of(*_: Any) -> int:
+        known.append(expected_call())
+        raise InterruptedError
+
+    for module in ("drapery.cloth.strain", "drapery.cloth.contact.lanes_contact"):
+        monkeypatch.setattr(import_module(module), "address_of", address_of)
+    ground = Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])))
+    met = Collisions([ground], 0.01)
+    cloth = MovingCloth.begin(grid(4, 5, 1.0, 1.0), solver(name), collisions=met)
+    with pytest.raises(InterruptedError):
+        cloth.advance((Gravity(),))
+    assert len(known) == 1
+    assert f"drapery.cloth.solvers.{name}".encode() in known[0]

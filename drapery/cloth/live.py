@@ -20,7 +20,7 @@ from drapery.cloth.live_wind import LiveWind, make_live_wind
 from drapery.cloth.pins import PinPath
 from drapery.cloth.ripples import PADDING
 from drapery.cloth.solvers import desbrun, xpbd
-from drapery.cloth.solvers.driver import Batch, batch_of, with_contact
+from drapery.cloth.solvers.driver import Batch, batch_of, with_addresses
 from drapery.cloth.stepping import MovingCloth
 from drapery.cloth.wind import Wind
 from drapery.errors import OptionError
@@ -133,7 +133,7 @@ def live_call(
     loads = lower_forces([*others, wind], moving.cloth, 1)
     steps = motion.first + motion.period
     given = moving.cloth, state, solver_state, loads, steps, motion.pins, 1, moving.boxes
-    made = with_contact(batch_of(*given))
+    made = with_addresses(batch_of(*given))
     blown = make_live_wind(moving.cloth, free, lee, motion.airflow, loads.gravity, motion.carried)
     batch = _narrowed(made, lanes or made.x.shape[1], blown)
     return LiveCall(_controls(moving, batch, motion), blown, plan, batch, solver_state.substeps)

@@ -204,7 +204,7 @@ def _advance(
     batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads, boxes)
     rest = steps, solver_state.substeps, *solver_state.options
     with called_next(solver_state.kernel, (0, 1, plan, batch, *rest)):
-        batch = with_contact(batch)
+        batch = with_addresses(batch)
 
     def work(first: int, last: int) -> None:
         mine = batch._replace(work=contact_work(batch.contact, len(cloth.inv_mass)))
@@ -238,7 +238,7 @@ def batch_of(
     threads: int,
     boxes: BoxColliders | None,
 ) -> Batch:
-    """The arguments of a kernel for some steps; see `with_contact`."""
+    """The arguments of a kernel for some steps; see `with_addresses`."""
     dtype = state.positions.dtype
     x, v = lanes.to_lanes(state.positions), lanes.to_lanes(state.velocities)
     h, count = solver_state.dt / solver_state.substeps, int((cloth.inv_mass == 0).sum())
@@ -272,12 +272,14 @@ def batch_of(
         limit,
         squares.astype(dtype),
         np.zeros(x.shape[1]),
-        limit_address(),
+        0,
     )
 
 
-def with_contact(batch: Batch) -> Batch:
-    """The batch with the address of the function that resolves its contacts, if it has any."""
+def with_addresses(batch: Batch) -> Batch:
+    """The batch with the address of the function that limits strain, and of the one that resolves
+    contacts, if it has any. The two may be compiled for it."""
+    batch = batch._replace(limit_strain=limit_address())
     meets = len(batch.contact.halves) > 0 or len(batch.itself.triangles) > 0
     return batch._replace(resolve=resolve_address()) if meets else batch
 
