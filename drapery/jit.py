@@ -39,6 +39,8 @@ declarations: list[Callable[[], Any]] = []
 _lock = threading.RLock()
 _expected: ContextVar[tuple[Any, tuple[Any, ...]] | None] = ContextVar("_expected", default=None)
 """The function that is called next, and its arguments."""
+_beside: list[tuple[str, Callable[[], object]]] = []
+"""What other processes compile, as the beginnings of names; and the calls that wait for them."""
 
 
 class Kernel(Compiled):
@@ -121,7 +123,10 @@ class EntryPoint(Kernel):
         from drapery.jit_cache import read_kernel
         from drapery.jit_objects import load
 
-        return load(read_kernel(self, types) or self._new(types, arguments))
+        made = read_kernel(self, types)
+        if made is None and _await_others(f"{self.__module__}.{self.__qualname__}"):
+            made = read_kernel(self, types)
+        return load(made or self._new(types, arguments))
 
     def _new(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> "KernelObject":
         prepare_numba()
@@ -282,15 +287,31 @@ def called_next(function: Any, arguments: tuple[Any, ...]) -> Iterator[None]:
         _expected.reset(before)
 
 
-def expected_call() -> bytes:
-    """The call after the block of `called_next`, for `drapery.compile_beside`; empty if none is, or
-    if it is of no kernel."""
+def expected_call() -> tuple[str, bytes] | None:
+    """The kernel that is called after the block of `called_next`, as a name for
+    `compiled_beside`, and the call, for `drapery.compile_beside`; None if none is."""
     call = _expected.get()
     if call is None or not isinstance(call[0], EntryPoint):
-        return b""
+        return None
     from drapery.jit_codegen import pickled_call
 
-    return pickled_call(*call)
+    return f"{call[0].__module__}.{call[0].__qualname__}", pickled_call(*call)
+
+
+def compiled_beside(names: str, wait: Callable[[], object]) -> None:
+    """Let another process compile kernels: one that is called here and not stored waits for it.
+
+    names: the beginning of their modules and names. wait: returns when the process has ended.
+    """
+    _beside.append((names, wait))
+
+
+def _await_others(name: str) -> bool:
+    """Wait for the processes that may compile a kernel; whether there is one."""
+    found = [each for each in _beside if name.startswith(each[0])]
+    for each in found:
+        each[1]()
+    return bool(found)
 
 
 def prepare_numba() -> None:

@@ -13,7 +13,7 @@ import pytest
 
 from drapery.cloth import Collider, Collisions, Gravity, MovingCloth, Plane, grid, solver
 from drapery.commands import notices
-from drapery.jit import called_next, expected_call
+from drapery.jit import called_next, compiled_beside, expected_call
 from drapery.settings import SolverName
 
 KERNEL = """
@@ -56,15 +56,40 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, untraced_processes: N
 
 def test_the_next_kernel_is_stored_for_the_types_of_its_call(start: Start, tmp_path: Path) -> None:
     with called_next(import_module("beside_kernels").twice, (1.5,)):
-        call = expected_call()
+        expected = expected_call()
+    assert expected is not None
+    assert expected[0] == "beside_kernels.twice"
     process = start()
     assert process.stdin is not None
-    process.stdin.write(call)
+    process.stdin.write(expected[1])
     process.stdin.flush()
     assert process.wait() == 0  # it does not wait for the end of its input
     process.stdin.close()
     stored = list((tmp_path / "cache" / "drapery" / "beside_kernels.twice").rglob("*.kernel"))
     assert len(stored) == 1
+
+
+def test_a_kernel_that_is_compiled_beside_is_awaited_and_not_compiled_again(
+    start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    twice = import_module("beside_kernels").twice
+    twice.forget()
+    with called_next(twice, (2.5,)):
+        expected = expected_call()
+    assert expected is not None
+    process = start()
+    assert process.stdin is not None
+    process.stdin.write(expected[1])
+    process.stdin.flush()
+    compiled_beside(expected[0], process.wait)
+
+    def compile_again(*_: Any) -> None:
+        raise AssertionError("the kernel was compiled again")
+
+    monkeypatch.setattr("drapery.jit_codegen.compile_kernel", compile_again)
+    assert twice(2.5) == 5.0
+    process.stdin.close()
 
 
 def test_it_ends_when_the_process_that_started_it_does(start: Start) -> None:
@@ -75,9 +100,9 @@ def test_it_ends_when_the_process_that_started_it_does(start: Start) -> None:
 
 
 def test_no_call_is_expected_of_what_is_no_kernel() -> None:
-    assert expected_call() == b""
+    assert expected_call() is None
     with called_next(len, ("text",)):
-        assert expected_call() == b""
+        assert expected_call() is None
 
 
 def test_a_command_starts_them_when_it_compiles_a_kernel_of_cloth(
@@ -85,13 +110,14 @@ def test_a_command_starts_them_when_it_compiles_a_kernel_of_cloth(
 ) -> None:
     cloth: Any = import_module("drapery.cloth.contact.lanes_contact").resolve
     renderer: Any = import_module("drapery.render.soft.bins").sort_into_tiles
-    started: list[tuple[list[str], bytes]] = []
+    started: list[tuple[Any, ...]] = []
     monkeypatch.setattr(notices, "start_beside", lambda *given: started.append(given))
     with called_next(cloth, (1,)):
         notices.say_compiling(cloth.py_func)
     notices.say_compiling(renderer.py_func)
-    assert [words for words, *_ in started] == [["drapery.render.soft"], []]
-    assert b"resolve" in started[1][1]
+    names = ["drapery.render.soft", "drapery.cloth.contact.lanes_contact.resolve"]
+    assert [name for name, *_ in started] == names
+    assert b"resolve" in started[1][2]
     assert capsys.readouterr().err.count("happens once and takes up to a minute") == 2
 
 
@@ -113,5 +139,4 @@ def test_whatever_a_step_compiles_first_the_kernel_of_its_solver_is_known(
     cloth = MovingCloth.begin(grid(4, 5, 1.0, 1.0), solver(name), collisions=met)
     with pytest.raises(InterruptedError):
         cloth.advance((Gravity(),))
-    assert len(known) == 1
-    assert f"drapery.cloth.solvers.{name}".encode() in known[0]
+    assert [each[0].rpartition(".")[0] for each in known] == [f"drapery.cloth.solvers.{name}"]

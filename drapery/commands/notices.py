@@ -8,8 +8,6 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, TextIO
 
 if TYPE_CHECKING:
-    from subprocess import Popen
-
     from rich.progress import Progress
 
 
@@ -18,9 +16,8 @@ MAX_LINE = 4000
 SLOW = 5.0
 """A picture that takes longer [s] says on a terminal for how long it has been drawn."""
 
-
-_beside: list["Popen[bytes]"] = []
-"""Processes that compile kernels; they end when this one does, or before."""
+RENDERER = "drapery.render.soft"
+"""The package whose `__main__` compiles the renderer's kernels."""
 
 
 def say(message: str) -> None:
@@ -55,7 +52,7 @@ def compile_notice() -> Iterator[None]:
     """Print a line when kernels are compiled, which happens once and takes up to a minute.
 
     While this process compiles the cloth's kernels, others compile those of the renderer and the
-    one that is called next; this process then reads them from the cache.
+    one that is called next; this process then waits for them and reads them from the cache.
     """
     from drapery.jit import when_numba_compiles
 
@@ -68,24 +65,29 @@ def say_compiling(function: Callable[..., object]) -> None:
     from drapery.jit import expected_call
 
     say("compiling kernels, which happens once and takes up to a minute ...")
-    if not function.__module__.startswith("drapery.render"):
-        start_beside(["drapery.render.soft"])
+    if not function.__module__.startswith(RENDERER):
+        start_beside(RENDERER, [RENDERER])
     if call := expected_call():
-        start_beside([], call)
+        start_beside(call[0], [], call[1])
 
 
-def start_beside(words: list[str], call: bytes = b"") -> None:
-    """Compile kernels in another process, without waiting for it; see `drapery.compile_beside`."""
+def start_beside(names: str, words: list[str], call: bytes = b"") -> None:
+    """Compile kernels in another process, see `drapery.compile_beside`; it ends with this one.
+
+    names: of the kernels, see `drapery.jit.compiled_beside`. words, call: for the process.
+    """
     import subprocess  # it takes long to load
+
+    from drapery.jit import compiled_beside
 
     pipe, nowhere = subprocess.PIPE, subprocess.DEVNULL
     command = [sys.executable, "-m", "drapery.compile_beside", *words]
     with suppress(OSError):  # it only saves time
         process = subprocess.Popen(command, stdin=pipe, stdout=nowhere, stderr=nowhere)
-        _beside.append(process)
         assert process.stdin is not None
         process.stdin.write(call)
         process.stdin.flush()
+        compiled_beside(names, process.wait)
 
 
 @contextmanager
