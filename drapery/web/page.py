@@ -24,13 +24,14 @@ from drapery.render import make_folder, replacing, webp_bytes
 from drapery.settings import Placement, Settings, applicable, settled_for
 from drapery.styles import combined_style
 from drapery.web.bundle import WEB, bundled_module
-from drapery.web.scene_file import scene_bytes, split_still
+from drapery.web.scene_file import fabric_bytes, scene_bytes, split_still
 from drapery.web.wasm.module import read_module
 
 MODULE = "drapery-banner.js"
 KERNELS = "cloth.bin"
 PLACEMENTS: tuple[Placement, ...] = ("standing", "wall")
-"""The kinds of banner that the component shows."""
+"""Where banners of the component are."""
+SHIELD: Literal["shield"] = "shield"
 Arms = Literal["classic", "slim"]
 ARMS: tuple[Arms, ...] = ("classic", "slim")
 WORN = ("cape", "elytra")
@@ -183,10 +184,15 @@ def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
 
 
 def banner_files(packs: Packs, settings: Settings) -> Iterator[tuple[str, bytes]]:
-    """The names and contents of the scenes of banners in all PLACEMENTS, and of their stills."""
+    """The names and contents of the scenes of banners in all PLACEMENTS, of their stills and
+    fabrics, and of a shield."""
     for placement in PLACEMENTS:
         placed = settings.changed(placement=placement)
         yield from split_still(scene_bytes(Banner(), packs, placed), placement).items()
+        yield f"{placement}-fabrics.bin", fabric_bytes(packs, placed)
+    kept = {n: v for n, v in settings.given_values.items() if n in applicable(Subject(SHIELD))}
+    shield = Settings(**{**kept, "kind": SHIELD})
+    yield f"{SHIELD}.bin", scene_bytes(Banner(kind=SHIELD), packs, shield)
 
 
 def posed_player(

@@ -3,9 +3,11 @@
 It is one message (see `messages`), compressed with gzip: the fields and arrays of a `scene` and of
 its first `moment`, and
 
-aspect: width / height of the picture that the camera frames. sheets: the names of the flag's
-sheets of texels in the order of its layers ("" is the bare cloth), None where no other design can
-be shown. turned: the angle of rotation or facing [degrees], see `Settings.turned`.
+aspect: width / height of the picture that the camera frames. sheets: the names of the sheets of
+texels of what shows the design, in the order of its layers ("" is the bare one), None where no
+other design can be shown. flag: a vertex of what shows it. views: cameras by the names of views;
+of no garment. daylights: the tints of the light at DAYLIGHTS. turned: the angle of rotation or
+facing [degrees], see `Settings.turned`.
 textures: those of a player, by name: the layers that show one, and which part they show of one 64
 texels wide.
 plan0, plan1, …: the plan of each panel of cloth, see `drapery.web.wasm`; `grip` has the vertices of
@@ -18,9 +20,9 @@ of the scene, and its atlas is left empty. Without one, noPicture says why.
 
 import gzip
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import astuple, replace
 from functools import partial
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +33,7 @@ from drapery.garments import Garment
 from drapery.mesh import Array, Mesh
 from drapery.option import Subject
 from drapery.packs import Packs
-from drapery.render import Material, TextureLayer
+from drapery.render import VIEWS, Material, TextureLayer, frame_view
 from drapery.scenes import (
     LiveBody,
     PlayedSubject,
@@ -46,7 +48,7 @@ from drapery.scenes import (
     repeating_garment,
     texture_areas,
 )
-from drapery.settings import Settings, settled
+from drapery.settings import FabricName, Settings, settled
 from drapery.style import Body, MaterialAt, body_of
 from drapery.styles import Style
 from drapery.web.messages import MessageEncoder, pack, unpack
@@ -54,6 +56,7 @@ from drapery.web.panes import Pane, ViewerState
 from drapery.web.wasm.module import module_info, read_module
 from drapery.web.wasm.plan import LANES, plans_of, write_plan
 
+DAYLIGHTS = tuple(step / 10 for step in range(11))
 SWINGS = np.array(((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7)))
 """How far a light wind moves cloth from its rest position: to both sides, to the front [m]."""
 MAX_SIDE = 4096
@@ -82,6 +85,25 @@ def scene_bytes(
     return _packed(scene, plans_of(played))
 
 
+def fabric_bytes(packs: Packs, settings: Settings) -> bytes:
+    """The file of a banner's plans in all fabrics: a message with an array for each.
+
+    A byte is the one of the fabric's plan, exclusive or that of the scene's own. Raises as
+    `scene_bytes` does.
+    """
+    body = body_of(Banner(), packs, settings)
+
+    (own,) = plans_of(played_body(body, settings))
+    found = {}
+    for name in get_args(FabricName):
+        (plan,) = plans_of(played_body(body, settings.changed(fabric=name)))
+        pair = [np.frombuffer(each, np.uint8) for each in (own, plan)]
+        longest = max(map(len, pair))
+        one, other = (np.pad(each, (0, longest - len(each))) for each in pair)
+        found[name] = one ^ other
+    return gzip.compress(pack({}, found), mtime=0)
+
+
 def split_still(scene: bytes, name: str) -> dict[str, bytes]:
     """The files `NAME.bin`, the scene, and `NAME-still.bin`, which only pictures need, if it has
     such a part."""
@@ -102,12 +124,16 @@ def _body_scene(
     body = body_of(design, packs, settings)
     live = LiveBody(body, settings)
     staging = live.staging
-    _check(staging.settings, staging.style, bool(live.cloths))
+    _check(staging.settings, staging.style, bool(live.cloths) or settings.kind == "shield")
     styled = staging.style.has("material")  # its steps need all layers of one design
     shown, sheets = (body, None) if styled or not design else _with_sheets(body, packs, patterns)
     settings = staging.settings
     scene = _first_message(_state(live, shown), settings)
-    scene[0].update(sheets=sheets, turned=settings.turned)
+    points, aspect = staging.framed(_framed(live)), settings.size[0] / settings.size[1]
+    views = {name: astuple(frame_view(name, points, aspect)) for name in VIEWS}
+    flag = scene[0]["runs"][-len(body.panels or body.parts)][0]
+    tints = [_tint(body, settings, daylight) for daylight in DAYLIGHTS]
+    scene[0].update(sheets=sheets, turned=settings.turned, views=views, daylights=tints, flag=flag)
     try:
         scene[1]["still"] = _still(shown, settings)
     except OptionError as error:
@@ -175,6 +201,10 @@ def _still(body: Body, settings: Settings) -> NDArray[np.uint8]:
     return np.frombuffer(write_plan(panel, module_info(read_module())), np.uint8)
 
 
+def _tint(body: Body, settings: Settings, daylight: float) -> tuple[float, float, float]:
+    return Staging(settings.changed(daylight=daylight), light=body.light).light.tint
+
+
 def _check(settings: Settings, style: Style, moves: bool) -> None:
     """Raise OptionError for what a page cannot show."""
     if not moves:
@@ -191,11 +221,17 @@ def _check(settings: Settings, style: Style, moves: bool) -> None:
 
 
 def _with_sheets(body: Body, packs: Packs, patterns: Sequence[str]) -> tuple[Body, list[str]]:
-    """The body whose flag has the sheets of all patterns as layers, and the names of these."""
+    """The body whose flag, or the plate of a shield, has the sheets of all patterns as layers, and
+    the names of these."""
     names = ["", *dict.fromkeys(("base", *patterns))]
-    texels = [packs.base_sheet(), *(packs.sheet(name) for name in names[1:])]
+    kind: Literal["banner", "shield"] = "banner" if body.panels else "shield"
+    bare = packs.base_sheet() if body.panels else packs.base("shield_base")
+    texels = [bare, *(packs.sheet(name, kind) for name in names[1:])]
     material = Material(tuple(map(TextureLayer, texels)))
     at: MaterialAt = lambda time: material  # noqa: E731
+    if not body.panels:
+        plate, *others = body.parts
+        return replace(body, parts=(replace(plate, material_at=at), *others)), names
     return replace(body, panels=tuple(replace(p, material_at=at) for p in body.panels)), names
 
 
@@ -205,11 +241,16 @@ def _state(live: LiveBody, shown: Body) -> ViewerState:
     shadow = None
     if staging.settings.shadow:
         shadow = staging.contact(models, floor_under(meshes))
-    framing = partial(staging.camera, [*(mesh.positions for mesh in meshes), *_swings(live)])
+    framing = partial(staging.camera, _framed(live))
     scene = staging.scene(models, framing(1.0), shadow)
     last = len(scene.models)
     grip = frozenset(range(last - len(live.body.panels), last))
     return ViewerState((Pane(scene, framing),), grip=grip, live=True)
+
+
+def _framed(live: LiveBody) -> list[Array]:
+    """What cameras frame [m], each [N, 3]."""
+    return [*(mesh.positions for mesh in live.meshes()), *_swings(live)]
 
 
 def _swings(live: LiveBody) -> list[Array]:

@@ -20,9 +20,10 @@ from drapery.banner import (
     reader_tables,
     write_banner,
 )
+from drapery.render import VIEWS
 from drapery.settings import OPTIONS
 from drapery.style import skin_tables
-from drapery.web.page import PLACEMENTS, POSES, WORN
+from drapery.web.page import PLACEMENTS, POSES, SHIELD, WORN
 
 PATH = Path(__file__).parent / "component" / "tables.js"
 DESIGNER_PATH = Path(__file__).parent / "designer" / "tables.js"
@@ -45,9 +46,12 @@ def tables_module() -> str:
         **reader_tables(),
         "skin": skin_tables(),
         "placements": PLACEMENTS,
+        "kinds": [*PLACEMENTS, SHIELD],
+        "fabrics": OPTIONS["fabric"].choices,
+        "views": list(VIEWS),
         "worn": WORN,
         "poses": list(POSES),
-        "bounds": {name: OPTIONS[name].bounds for name in ("wind", "direction", "seed")}
+        "bounds": {name: OPTIONS[name].bounds for name in ("wind", "direction", "seed", "daylight")}
         | {"phase": OPTIONS["time"].bounds},
         "styles": _styles(PATH.with_name("element.css")),
     }

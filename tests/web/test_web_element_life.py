@@ -95,9 +95,41 @@ def test_seed_and_phase_give_each_banner_gusts_of_its_own(life: Any) -> None:
         assert np.array_equal(added(life, design="red", **own), other), own
 
 
+def test_fabric_view_daylight_and_shield_are_those_of_the_package(life: Any) -> None:
+    plain = added(life, design="red")
+    for own in ({"fabric": "wool"}, {"view": "front"}, {"daylight": 1}, {"kind": "standing"}):
+        assert np.array_equal(added(life, design="red", **own), plain), own
+    night = added(life, design="red", daylight=0)
+    assert night[..., :3].sum() < 0.5 * plain[..., :3].sum()
+    assert np.array_equal(night[..., 3], plain[..., 3])
+    for own in ({"fabric": "silk"}, {"view": "back"}, {"view": "iso"}, {"daylight": 0.4}):
+        assert not np.array_equal(added(life, design="red", **own), plain), own
+    shield = added(life, design="red creeper:lime", kind="shield", wind=9)
+    lime = (shield[..., 1] > shield[..., 0].astype(int) + 40) & (shield[..., 3] == 255)
+    assert 0.02 < lime.mean() < 0.3
+    opaque = shield[..., 3] == 255
+    assert abs(np.ptp(np.nonzero(opaque.any(0))[0]) / np.ptp(np.nonzero(opaque.any(1))[0])) < 0.6
+    assert np.array_equal(added(life, design="red creeper:lime", kind="shield"), shield)
+
+
+def test_attributes_that_change_give_the_same_picture_as_those_from_the_start(life: Any) -> None:
+    wanted = added(life, design="red", fabric="silk", view="iso", daylight=0.3)
+    added(life, design="red")
+    each = "document.querySelector('aside').lastChild"
+    life.execute_script(f"Object.assign({each}, {{ view: 'iso', daylight: 0.3, fabric: 'silk' }})")
+    wait_until(lambda: np.array_equal(picture(life, each), wanted))
+
+
 @pytest.mark.parametrize(
     ("name", "value", "reason"),
     [
+        ("view", "side", 'view="side" is not known; use front, back, iso, gui, hero'),
+        ("daylight", "2", 'daylight="2" is out of range; use 0 to 1'),
+        (
+            "fabric",
+            "velvet",
+            'fabric="velvet" is not known; use wool, cotton, linen, silk, canvas, leather, felt',
+        ),
         ("seed", "1.5", 'seed="1.5" is not a whole number; write seed="4"'),
         ("seed", "-1", 'seed="-1" is out of range; use 0 to 4294967295'),
         ("phase", "soon", 'phase="soon" is not a number; write phase="4"'),

@@ -14,14 +14,16 @@ from node_program import NODE, run_node
 
 from drapery import Banner, OptionError
 from drapery.packs import open_packs
-from drapery.scenes import LiveBody
+from drapery.render import VIEWS
+from drapery.scenes import LiveBody, played_body
 from drapery.settings import Settings
 from drapery.style import body_of
 from drapery.web import page
 from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, ENTRY, bundled_module
 from drapery.web.gallery import ITEMS, gallery_text
 from drapery.web.messages import unpack
-from drapery.web.scene_file import scene_bytes
+from drapery.web.scene_file import fabric_bytes, scene_bytes
+from drapery.web.wasm.plan import plans_of
 
 DESIGN = Banner.parse("white creeper:lime border:black")
 SIZE = (320, 480)
@@ -81,6 +83,32 @@ def test_a_style_of_materials_keeps_the_design_of_the_page(
         page.write_component(tmp_path / "dist", settings)
 
 
+@pytest.mark.parametrize("fabric", ["wool", "silk", "leather"])
+def test_the_plans_of_all_fabrics_are_one_small_file(playable: Playable, fabric: str) -> None:
+    packs, settings = open_packs(()), playable(size=SIZE)
+    packed = fabric_bytes(packs, settings)
+    assert len(packed) < 20_000
+    _, plans = unpack(gzip.decompress(packed))
+    own, wanted = (
+        plans_of(played_body(body_of(DESIGN, packs, each), each))[0]
+        for each in (settings, settings.changed(fabric=fabric))
+    )
+    found = plans[fabric] ^ np.frombuffer(own.ljust(len(plans[fabric]), b"\0"), np.uint8)
+    assert found.tobytes().rstrip(b"\0") == wanted
+
+
+def test_a_scene_has_the_cameras_and_the_light_of_python(playable: Playable) -> None:
+    packs, settings = open_packs(()), playable(size=SIZE)
+    header, _ = unpack(gzip.decompress(scene_bytes(DESIGN, packs, settings)))
+    assert list(header["views"]) == list(VIEWS)
+    assert header["views"]["front"] == header["cameras"]["list"][0]
+    dark = playable(size=SIZE, daylight=0.3, view="iso")
+    other, _ = unpack(gzip.decompress(scene_bytes(DESIGN, packs, dark)))
+    assert header["views"]["iso"] == other["cameras"]["list"][0]
+    assert header["daylights"][3] == other["tints"][0]
+    assert header["daylights"][10] == header["tints"][0]
+
+
 @pytest.mark.parametrize(
     ("options", "reason"),
     [({"view": "hero"}, "cast shadows need Python"), ({"shadow": True}, "translucent materials")],
@@ -111,8 +139,9 @@ def test_a_package_names_its_files(
     package = json.loads((tmp_path / "dist" / "package.json").read_text())
     named = {package["main"], package["types"], "README.md", "package.json"}
     players = {f"{worn}-sneak{arms}.bin" for worn in ("cape", "elytra") for arms in ("", "-slim")}
-    scenes = {f"{name}{part}.bin" for name in page.PLACEMENTS for part in ("", "-still")}
-    assert found == named | scenes | {"cloth.bin"} | players
+    parts = "", "-still", "-fabrics"
+    scenes = {f"{name}{part}.bin" for name in page.PLACEMENTS for part in parts}
+    assert found == named | scenes | {"cloth.bin", "shield.bin"} | players
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,8 @@ export function readDesign(text: string): Design;
 /**
  * `<drapery-banner design="white creeper:lime" wind="4">`.
  *
- * Attributes: `design`; `kind` ("standing" or "wall"); `wind` [m/s]; `direction`, to which the wind
+ * Attributes: `design`; `kind` ("standing", "wall" or "shield"); `fabric`, such as "silk"; `view`, such
+ * as "iso"; `daylight`, 1 at noon and 0 at night; `wind` [m/s]; `direction`, to which the wind
  * blows [degrees]; `seed` of the gusts, a whole number; `phase`, how far ahead they are [s]; `paused`;
  * `alt`. Events: `drapery-ready`, also after each change that is shown; `drapery-error`, whose `detail`
  * is the line of the console; `drapery-pause`, whose `detail` is `paused`.
@@ -30,6 +31,9 @@ export class DraperyBanner extends HTMLElement {
   /** The attributes as properties; null where there is none, and removes one. */
   design: string | null;
   kind: string | null;
+  fabric: string | null;
+  view: string | null;
+  daylight: string | number | null;
   wind: string | number | null;
   direction: string | number | null;
   seed: string | number | null;

@@ -11,8 +11,8 @@ const ATTRIBUTES = ["kind", "wind", "direction", "seed", "phase", "paused", "alt
 const LESS_MOTION = globalThis.matchMedia?.("(prefers-reduced-motion: reduce)");
 
 export class DraperyBanner extends HTMLElement {
-  static observedAttributes = ["design", ...ATTRIBUTES];
-  static sources = ["kind"]; // attributes that need another scene
+  static observedAttributes = ["design", "fabric", "view", "daylight", ...ATTRIBUTES];
+  static sources = ["kind", "fabric"]; // attributes that need another scene
 
   #starts = 0;
   #player = null;
@@ -98,15 +98,16 @@ export class DraperyBanner extends HTMLElement {
     return this.#shown.picture();
   }
 
-  // The name of its scene, and the textures that replace those of the scene.
+  // The name of its scene, and what replaces parts of it: textures or the fabric.
   async source() {
-    return [nameOf("kind", this.getAttribute("kind") ?? "standing", [...TABLES.placements, ...scenesInPage()]), {}];
+    const kind = nameOf("kind", this.getAttribute("kind") ?? "standing", [...TABLES.kinds, ...scenesInPage()]);
+    return [kind, { fabric: kind === "shield" ? null : this.getAttribute("fabric") }];
   }
 
   // What a design looks like, in words.
   words({ base, layers }) {
     const patterns = layers.map(({ pattern, dye }) => `, ${dye} ${pattern}`);
-    return `${base} banner${patterns.join("")}`.replaceAll("_", " ");
+    return `${base} ${this.getAttribute("kind") === "shield" ? "shield" : "banner"}${patterns.join("")}`.replaceAll("_", " ");
   }
 
   get #shown() {
@@ -118,9 +119,9 @@ export class DraperyBanner extends HTMLElement {
     const start = ++this.#starts;
     this.#isStarting = true;
     try {
-      const [name, textures] = await this.source();
+      const [name, changes] = await this.source();
       const isWanted = () => start === this.#starts;
-      const player = await Player.open(this.#canvas, `${name}.bin`, this.getAttribute("design"), textures, isWanted);
+      const player = await Player.open(this.#canvas, `${name}.bin`, this.getAttribute("design"), changes, isWanted);
       if (isWanted()) this.#show(player);
       else player?.end();
     } catch (error) {
@@ -137,7 +138,8 @@ export class DraperyBanner extends HTMLElement {
     this.#canvas.hidden = !player;
     this.#slot.hidden = Boolean(player);
     if (!player) return;
-    this.#apply("design", ...Object.keys(this.#wind));
+    const { observedAttributes } = this.constructor;
+    this.#apply(...["view", "daylight"].filter((name) => observedAttributes.includes(name)), ...Object.keys(this.#wind));
   }
 
   // Do what attributes say. Only those that have changed are read: a wrong value is told once.
@@ -145,6 +147,8 @@ export class DraperyBanner extends HTMLElement {
     for (const name of names)
       this.#try((player) => {
         if (name === "design") player.setDesign(this.getAttribute(name));
+        else if (name === "view") player.setView(this.getAttribute(name));
+        else if (name === "daylight") player.setDaylight(numberOf(name, this.getAttribute(name)));
         else if (name in this.#wind) this.#wind[name] = numberOf(name, this.getAttribute(name));
         this.#isChanged = true;
       });
@@ -231,7 +235,7 @@ export class DraperyPlayer extends DraperyBanner {
     const [skin, cape] = await Promise.all(["skin", "cape"].map((name) => readTexture(name, this.getAttribute(name))));
     const shape = skin && isSlim(skin) ? "-slim" : "";
     const textures = { ...(skin && { skin: wholeSkin(skin) }), ...(cape && { cape }) };
-    return [TABLES.worn.includes(kind) ? `${kind}-${pose}${shape}` : kind, textures];
+    return [TABLES.worn.includes(kind) ? `${kind}-${pose}${shape}` : kind, { textures }];
   }
 
   words() {

@@ -5,6 +5,7 @@ import { Drawing } from "../viewer/drawing.js";
 import { add, dot, length, readCamera, scale, subtract, unit } from "../viewer/matrices.js";
 import { unpack } from "../viewer/messages.js";
 import { View } from "../viewer/view.js";
+import { nameOf } from "./attributes.js";
 import { DesignError, readDesign } from "./design.js";
 import { draw, fileBytes, players, sharedContext, wake, wholeContext } from "./shared.js";
 import { TABLES } from "./tables.js";
@@ -14,18 +15,26 @@ const MODULE = "cloth.bin";
 const LONGEST = 1 / 15; // time that passes in one frame [s]; slower pages show slower motion
 const SETTLED = 3; // time before cloth is shown that does not move [s]
 
+// The plan of another fabric: a file has where the plans of all differ.
+function woven(plan, file, fabric) {
+  const { arrays } = unpack(file.buffer);
+  return arrays[nameOf("fabric", fabric, Object.keys(arrays))].map((byte, at) => byte ^ plan[at]);
+}
+
 export class Player extends View {
   // canvas: its picture goes there. name: of a file that `drapery.web.scene_file` wrote. text: the
-  // design, or null. textures: pixels in place of the scene's own, by name. isWanted: asked when the
-  // files are there; without it there is no player, and no memory is taken.
-  static async open(canvas, name, text, textures, isWanted) {
+  // design, or null. textures: pixels in place of the scene's own, by name. fabric: another one, or null.
+  // isWanted: asked when the files are there; without it there is no player, and no memory is taken.
+  static async open(canvas, name, text, { textures = {}, fabric = null }, isWanted) {
     await wholeContext();
-    const [scene, module] = await Promise.all([name, MODULE].map(fileBytes));
+    const fabrics = fabric === null ? [] : [name.replace(".", "-fabrics.")];
+    const [scene, module, others] = await Promise.all([name, MODULE, ...fabrics].map(fileBytes));
     if (!isWanted()) return null;
     const { header, arrays } = retextured(unpack(scene.buffer), textures);
     const player = new Player(canvas, header, arrays);
     player.setDesign(text);
-    player.cloths = await Promise.all(header.grip.map((_, number) => Cloth.load(module, arrays[`plan${number}`])));
+    const plans = header.grip.map((_, number) => arrays[`plan${number}`]).map((plan) => (others ? woven(plan, others, fabric) : plan));
+    player.cloths = await Promise.all(plans.map((plan) => Cloth.load(module, plan)));
     player.restore();
     players.add(player);
     return player;
@@ -34,6 +43,7 @@ export class Player extends View {
   constructor(canvas, header, arrays) {
     super(canvas);
     Object.assign(this, { header, arrays, given: {}, playing: false, owed: 0, moved: false, grab: null });
+    this.tints = header.tints;
     this.cameras = header.cameras.list.map(readCamera);
   }
 
@@ -42,7 +52,7 @@ export class Player extends View {
     this.drawing = new Drawing(sharedContext());
     const [materials, layers] = this.tables;
     this.drawing.setScene(this.header, { ...this.arrays, materials, layers });
-    this.drawing.setMoment(this.header, this.arrays);
+    this.drawing.setMoment({ ...this.header, tints: this.tints }, this.arrays);
     if (this.moved) this.upload();
     wake(this);
   }
@@ -67,7 +77,7 @@ export class Player extends View {
   // scene, one for each sheet, copied to the end of the table in the order of the design.
   tablesOf({ base, layers: patterns }) {
     const { materials, layers, vertexMaterials } = this.arrays;
-    const flag = 4 * vertexMaterials[this.header.grip[0][0]];
+    const flag = 4 * vertexMaterials[this.header.flag];
     const rows = [{ pattern: "" }, { pattern: "base", dye: base }, ...patterns].flatMap(({ pattern, dye }) => {
       const sheet = this.header.sheets.indexOf(pattern);
       if (sheet < 0) throw new DesignError(`there is no texture of the pattern '${pattern}' here`);
@@ -77,6 +87,22 @@ export class Player extends View {
     const changed = materials.slice();
     changed.set([layers.length / 7, rows.length / 7], flag);
     return [changed, Int32Array.from([...layers, ...rows])];
+  }
+
+  // Look from the camera of a view, by default that of the scene. Throws an Error for a name that is not known.
+  setView(name) {
+    const { views = {}, cameras } = this.header;
+    this.cameras = name === null ? cameras.list.map(readCamera) : [readCamera(views[nameOf("view", name, Object.keys(views))])];
+    this.orbit.reset();
+  }
+
+  // The light of a day: 1 at noon, 0 at night; undefined as planned.
+  setDaylight(daylight) {
+    const { daylights, tints } = this.header;
+    const at = (daylight ?? 0) * (daylights.length - 1);
+    const [before, after] = [daylights[Math.floor(at)], daylights[Math.ceil(at)]];
+    this.tints = daylight === undefined ? tints : [before.map((tint, part) => tint + (after[part] - tint) * (at % 1))];
+    this.upload();
   }
 
   // given: wind, its speed [m/s]; direction, to which it blows [degrees from +z towards +x]; seed and
@@ -98,6 +124,7 @@ export class Player extends View {
 
   // Move the cloth for one frame; whether there will be another one.
   moment(seconds) {
+    if (!this.cloths.length) return false;
     const moves = Boolean(this.playing || this.grab);
     const { step } = this.cloths[0].info;
     this.owed = Math.min(this.owed + (moves ? seconds / step : 0), Math.round(LONGEST / step));
@@ -122,10 +149,11 @@ export class Player extends View {
 
   // Give the vertices of the cloth, and of a wearer, to the drawing.
   upload() {
+    this.drawing.tints = this.tints;
     for (const [number, start, count, positions, light] of this.header.moving) {
       const cloth = this.cloths[number];
       const now = { positions: cloth.array(positions), light: cloth.array(light) };
-      this.drawing.setMoment({ runs: [[start, count]], tints: this.header.tints }, now);
+      this.drawing.setMoment({ runs: [[start, count]], tints: this.tints }, now);
     }
   }
 

@@ -21,7 +21,7 @@ export class Faces {
   constructor(header, arrays) {
     this.header = header;
     this.arrays = arrays;
-    this.first = arrays.materials[4 * arrays.vertexMaterials[header.grip[0][0]]];
+    this.first = arrays.materials[4 * arrays.vertexMaterials[header.flag]];
     /** @type {Map<string, Uint8Array>} */
     this.masks = new Map();
   }
