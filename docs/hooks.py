@@ -65,7 +65,7 @@ def on_post_build(config: Any) -> None:
     if config["extra_javascript"]:
         from drapery.web.designer_page import write_designer
         from drapery.web.gallery import write_gallery
-        from drapery.web.page import write_component
+        from drapery.web.package import write_component
 
         write_component(site / "element", Settings())
         write_designer((site / DESIGNER).parent, Settings())

@@ -13,7 +13,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drapery import Settings
-from drapery.web.page import SIZE, write_component
+from drapery.web.package import write_component
+from drapery.web.page import SIZE
 from release.build import ROOT, packed
 from release.repository import ADDRESS
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from release.check_npm import projects
 from release.npm import TEXTS, pack
 
 PACKAGE = {
@@ -62,3 +63,12 @@ def test_the_package_names_the_repository_once_there_is_one(
     made = packed(pack(folder, tmp_path / "dist", "https://github.com/somebody/drapery"))
     url = "git+https://github.com/somebody/drapery.git"
     assert json.loads(made["package/package.json"])["repository"] == {"type": "git", "url": url}
+
+
+def test_the_check_knows_each_bundler_of_the_guide() -> None:
+    found = {each.name: each for each in projects()}
+    assert list(found) == ["Vite", "Parcel", "webpack", "esbuild", "Rollup", "Next", "Astro"]
+    assert found["Parcel"].files == found["Vite"].files
+    for each in found.values():
+        assert any("./drapery-banner" in words for words in each.commands), each.name
+        assert each.commands[-1][0] == "npx" and "<drapery-banner" in "".join(each.files.values())

@@ -169,8 +169,8 @@ OPENED_ELSEWHERE = {
     *("kernel_sources.py", "jit_cache.py", "batch/keys.py", "match/perspective.py"),
     *("banner/blazon/reading.py", "banner/formats/languages.py", "banner/formats/snbt.py"),
     *("banner/letters.py", "banner/packs/folders.py", "testing/failures.py"),
-    *("web/bundle.py", "web/designer_page.py", "web/page.py", "web/tables.py"),
-    *("web/wasm/build.py", "web/wasm/compiler.py", "web/wasm/module.py"),
+    *("web/bundle.py", "web/designer_page.py", "web/package.py", "web/page.py"),
+    *("web/tables.py", "web/wasm/build.py", "web/wasm/compiler.py", "web/wasm/module.py"),
     *("studio/design_catalogue.py", "studio/icons.py", "studio/page.py", "studio/translation.py"),
     # files that the program itself has written
     *("batch/jobs.py", "batch/stores.py", "batch/worker.py", "serve/app.py"),

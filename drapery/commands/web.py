@@ -40,7 +40,8 @@ def run(
     from drapery.render import check_target
     from drapery.web.designer_page import write_designer
     from drapery.web.gallery import write_gallery
-    from drapery.web.page import write_component, write_page
+    from drapery.web.package import write_component
+    from drapery.web.page import write_page
 
     settings = o.settings_of({**words, "size": size})
     if component + designer + gallery > 1:

@@ -2,18 +2,20 @@
 
 import gzip
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from drapery.banner import game_titles
-from drapery.packs import open_packs
+from drapery.packs import Packs, open_packs
 from drapery.settings import Settings
-from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, WEB, bundled_module
+from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, WEB, beside, bundled_module
 from drapery.web.page import banner_files, check_package, kernel_file, write_files
 from drapery.web.pattern_words import search_words
 from drapery.web.tables import languages
 
 MODULE = "drapery-designer.js"
+TYPES = "drapery-designer.d.ts"
+BANNER_TYPES = "drapery-banner.d.ts"
 PAGE = "index.html"
 
 
@@ -27,17 +29,28 @@ def write_designer(folder: Path, settings: Settings) -> None:
 
 
 def _files(settings: Settings) -> Iterator[tuple[str, bytes]]:
-    packs = open_packs(settings.packs, format=settings.format)
-    yield from banner_files(packs, settings)
-    yield from kernel_file().items()
-    yield "words.bin", _packed(search_words())
+    files = designer_files(open_packs(settings.packs, format=settings.format), settings)
+    yield from files.items()
+    yield from module_files(files)
+    yield PAGE, (WEB / "designer.html").read_bytes()
+
+
+def designer_files(packs: Packs, settings: Settings) -> dict[str, bytes]:
+    """What the designer loads, by name: the scenes of banners, the kernels, words and languages."""
+    files = {**dict(banner_files(packs, settings)), **kernel_file()}
+    files["words.bin"] = _packed(search_words())
     for code, language in languages().items():
         dyes, patterns = game_titles(language["game"])
         shown = {"texts": language["texts"], "dyes": dyes, "patterns": patterns}
-        yield f"{code}.bin", _packed(shown)
-    yield MODULE, bundled_module(DESIGNER_ENTRY, DESIGNER_PUBLIC).encode()
-    yield "drapery-designer.d.ts", (WEB / "designer" / "drapery-designer.d.ts").read_bytes()
-    yield PAGE, (WEB / "designer.html").read_bytes()
+        files[f"{code}.bin"] = _packed(shown)
+    return files
+
+
+def module_files(names: Iterable[str]) -> Iterator[tuple[str, bytes]]:
+    """The module of the designer, which loads files of these names beside it, and its types."""
+    yield MODULE, bundled_module(DESIGNER_ENTRY, DESIGNER_PUBLIC, beside(names)).encode()
+    yield TYPES, (WEB / "designer" / TYPES).read_bytes()
+    yield BANNER_TYPES, (WEB / "component" / BANNER_TYPES).read_bytes()
 
 
 def _packed(tree: object) -> bytes:

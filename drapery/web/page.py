@@ -1,15 +1,13 @@
-"""Pages and packages that play live cloth without a server."""
+"""Pages that play live cloth without a server."""
 
 import base64
 import gzip
-import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
 from typing import Literal
 
-from drapery import __version__, draw
+from drapery import draw
 from drapery.banner import PATTERN_NAMES, Banner, alt_text, write_banner
 from drapery.errors import DraperyError, OptionError
 from drapery.garments import (
@@ -27,7 +25,6 @@ from drapery.web.bundle import WEB, bundled_module
 from drapery.web.scene_file import fabric_bytes, scene_bytes, split_still
 from drapery.web.wasm.module import read_module
 
-MODULE = "drapery-banner.js"
 KERNELS = "cloth.bin"
 PLACEMENTS: tuple[Placement, ...] = ("standing", "wall")
 """Where banners of the component are."""
@@ -138,15 +135,6 @@ def write_page(path: Path, design: Banner | Garment | None, settings: Settings) 
         partial.write_text(page_text(design, settings), encoding="utf-8")
 
 
-def write_component(folder: Path, settings: Settings) -> None:
-    """Write the package of the elements: their module, types, kernels, scenes and README.
-
-    Raises OutputError, and the errors of `scene_bytes`.
-    """
-    check_package(settings)
-    write_files(folder, _component_files(settings))
-
-
 def check_package(settings: Settings) -> None:
     """Raise OptionError for what a package, which shows any design, cannot show."""
     if settings.rotation or settings.facing is not None:
@@ -167,20 +155,6 @@ def write_files(folder: Path, files: Iterable[tuple[str, bytes]]) -> None:
     for name, data in made:
         with replacing(folder / name) as partial:
             partial.write_bytes(data)
-
-
-def _component_files(settings: Settings) -> Iterator[tuple[str, bytes]]:
-    packs = open_packs(settings.packs, format=settings.format)
-    yield from banner_files(packs, settings)
-    for worn, pose, arms in product(WORN, POSES, ARMS):
-        garment = posed_player(worn, pose, arms, overlay="whole")  # its skin can be replaced
-        name = f"{worn}-{pose}{'-slim' if arms == 'slim' else ''}"
-        yield f"{name}.bin", scene_bytes(garment, packs, seen_settings(garment, settings))
-    yield from kernel_file().items()
-    yield MODULE, bundled_module().encode()
-    for name in ("README.md", "drapery-banner.d.ts"):
-        yield name, (WEB / "component" / name).read_bytes()
-    yield "package.json", (json.dumps(_package(), indent=2) + "\n").encode()
 
 
 def banner_files(packs: Packs, settings: Settings) -> Iterator[tuple[str, bytes]]:
@@ -208,22 +182,6 @@ def seen_settings(garment: Garment, settings: Settings, size: tuple[int, int] = 
     """What a user chose for banners, for a garment that is seen from behind; else its own."""
     kept = {n: v for n, v in settings.given_values.items() if n in applicable(Subject("garment"))}
     return garment.settings(**{**kept, "size": size, "rotation": FROM_BEHIND})
-
-
-def _package() -> dict[str, object]:
-    files = ["*.bin", MODULE, "drapery-banner.d.ts"]
-    return {
-        "name": "drapery-banner",
-        "version": __version__,
-        "description": "Minecraft banners of live cloth as a custom element.",
-        "license": "MIT AND CC0-1.0",
-        "type": "module",
-        "main": MODULE,
-        "types": "drapery-banner.d.ts",
-        "exports": {".": {"types": "./drapery-banner.d.ts", "default": f"./{MODULE}"}},
-        "files": files,
-        "sideEffects": True,
-    }
 
 
 def _base64(data: bytes) -> str:

@@ -26,8 +26,8 @@ from web_sites import (
 from drapery import Banner, draw
 from drapery.banner import DYE_NAMES, PATTERN_NAMES
 from drapery.settings import Settings
-from drapery.web import page
-from drapery.web.page import write_component, write_page
+from drapery.web import package
+from drapery.web.page import write_page
 
 HERE = Path(__file__).parents[1]
 NO_WEBGL = """
@@ -36,6 +36,12 @@ HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
   return kind === "webgl2" ? null : get.call(this, kind, ...more);
 };
 """
+ALONE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Inline</title><body>
+<drapery-banner design="white creeper:lime"></drapery-banner>
+<drapery-designer language="de"></drapery-designer>
+<script type="module" src="drapery-inline.js"></script>
+"""
+INNER = "document.querySelector('drapery-designer').shadowRoot.querySelector('drapery-banner')"
 NO_SIMD = """
 WebAssembly.compile = async () => {
   throw new WebAssembly.CompileError("Wasm SIMD unsupported");
@@ -84,12 +90,16 @@ def site(
     design = Banner.parse("white creeper:lime border:black")
     write_page(folder / "banner.html", design, playable(size=(320, 480)))
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(page, "POSES", {})
-        write_component(folder, playable(size=(320, 480)))
+        patched.setattr(package, "POSES", {})
+        package.write_component(folder, playable(size=(320, 480)))
     (folder / "many.html").write_text(MANY, encoding="utf-8")
     bare = folder / "bare"  # with the module and no other file of the package
     bare.mkdir()
-    shutil.copy(folder / page.MODULE, bare)
+    shutil.copy(folder / package.MODULE, bare)
+    inline = folder / "inline"
+    inline.mkdir()
+    shutil.copy(folder / package.INLINE, inline)
+    (inline / "index.html").write_text(ALONE, encoding="utf-8")
     for number, kind in enumerate(KINDS):
         text = LOST.format(kind=kind, pixel=PIXEL)
         (bare / f"lost{number}.html").write_text(text, encoding="utf-8")
@@ -128,6 +138,18 @@ def test_a_page_of_one_file_waves_and_is_named(chromium: Any, site: str) -> None
     assert name_of(chromium) == "Banner: Argent, a creeper Lime within a bordure Sable"
     for script in ("page_names.js", "page_contrast.js"):
         assert chromium.execute_script((HERE / script).read_text(encoding="utf-8")) == []
+    assert warnings(chromium) == []
+
+
+def test_the_module_with_all_files_needs_no_other(chromium: Any, site: str) -> None:
+    open_site(chromium, f"{site}/inline/index.html")
+    before = first_picture(chromium)
+    wait_until(lambda: changes(chromium, before))
+    wait_until(lambda: is_live(chromium, INNER))
+    asked = chromium.execute_script(
+        "return performance.getEntriesByType('resource').map((e) => e.name)"
+    )
+    assert {name.rpartition("/")[2] for name in asked} <= {"drapery-inline.js", "favicon.ico"}
     assert warnings(chromium) == []
 
 

@@ -13,7 +13,7 @@ from studio_browser import wait_until
 from web_sites import CANVAS, changes, first_picture, is_live, open_site, served, warnings
 
 from drapery.settings import Settings
-from drapery.web import page
+from drapery.web import package
 
 CAPE = "document.querySelector('drapery-cape')"
 ELYTRA = "document.querySelector('drapery-elytra')"
@@ -39,8 +39,8 @@ def players(playable: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator
     folder: Path = tmp_path_factory.mktemp("players")
     settings: Settings = playable(size=(320, 480))
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(page, "POSES", {"walk": 1.5})
-        page.write_component(folder, settings)
+        patched.setattr(package, "POSES", {"walk": 1.5})
+        package.write_component(folder, settings)
     cape, skin = np.zeros((32, 64, 4), np.uint8), np.full((64, 64, 4), 255, np.uint8)
     cape[:] = 200, 0, 200, 255
     skin[...] = 0, 200, 0, 255

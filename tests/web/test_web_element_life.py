@@ -9,8 +9,7 @@ from studio_browser import resize, wait_until
 from web_sites import ELEMENT, changes, first_picture, is_live, open_site, picture, served
 
 from drapery.settings import Settings
-from drapery.web import page
-from drapery.web.page import write_component
+from drapery.web import package
 
 PAGE = """<!doctype html><html lang="en"><title>Life</title>
 <script type="module" src="drapery-banner.js"></script>
@@ -36,8 +35,8 @@ def address(
 ) -> Iterator[str]:
     folder = tmp_path_factory.mktemp("life")
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(page, "POSES", {})
-        write_component(folder, playable(size=(320, 480)))
+        patched.setattr(package, "POSES", {})
+        package.write_component(folder, playable(size=(320, 480)))
     (folder / "index.html").write_text(PAGE, encoding="utf-8")
     yield from served(folder)
 

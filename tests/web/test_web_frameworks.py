@@ -18,9 +18,9 @@ from web_sites import Handler, changes, first_picture, is_live, open_site
 
 from drapery import Banner
 from drapery.settings import Settings
-from drapery.web import page
+from drapery.web import package
 from drapery.web.gallery import ITEMS, gallery_text
-from drapery.web.page import write_component, write_page
+from drapery.web.page import write_page
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "web"
 MODULES = Path(__file__).parents[1] / "js" / "node_modules"
@@ -46,8 +46,8 @@ def examples(
     """The address of a folder with the examples, a gallery and a page of one file."""
     folder = tmp_path_factory.mktemp("examples")
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(page, "POSES", {})  # players need other kernels
-        write_component(folder / "drapery-banner", playable())
+        patched.setattr(package, "POSES", {})  # players need other kernels
+        package.write_component(folder / "drapery-banner", playable())
     shutil.copy(EXAMPLES / "plain.html", folder)
     for source in (EXAMPLES / "react.jsx", EXAMPLES / "vue.js"):
         bundle(source, folder / "drapery-banner")

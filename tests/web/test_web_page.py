@@ -18,11 +18,12 @@ from drapery.render import VIEWS
 from drapery.scenes import LiveBody, played_body
 from drapery.settings import Settings
 from drapery.style import body_of
-from drapery.web import page
-from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, ENTRY, bundled_module
+from drapery.web import package, page
+from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, ENTRY, beside, bundled_module
 from drapery.web.gallery import ITEMS, gallery_text
 from drapery.web.messages import unpack
 from drapery.web.scene_file import fabric_bytes, scene_bytes
+from drapery.web.tables import languages
 from drapery.web.wasm.plan import plans_of
 
 DESIGN = Banner.parse("white creeper:lime border:black")
@@ -80,7 +81,7 @@ def test_a_style_of_materials_keeps_the_design_of_the_page(
     flag = arrays["vertexMaterials"][header["grip"][0][0]]
     assert header["sheets"] is None and arrays["materials"].reshape(-1, 4)[flag, 1] == 1
     with pytest.raises(OptionError, match="the package shows any design"):
-        page.write_component(tmp_path / "dist", settings)
+        package.write_component(tmp_path / "dist", settings)
 
 
 @pytest.mark.parametrize("fabric", ["wool", "silk", "leather"])
@@ -133,15 +134,40 @@ def test_a_page_has_all_that_it_needs(playable: Playable) -> None:
 def test_a_package_names_its_files(
     playable: Playable, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(page, "POSES", {"sneak": 0.0})
-    page.write_component(tmp_path / "dist", playable())
-    found = {path.name for path in (tmp_path / "dist").iterdir()}
-    package = json.loads((tmp_path / "dist" / "package.json").read_text())
-    named = {package["main"], package["types"], "README.md", "package.json"}
+    monkeypatch.setattr(package, "POSES", {"sneak": 0.0})
+    package.write_component(tmp_path / "dist", playable())
+    made = {path.name: path.read_bytes() for path in (tmp_path / "dist").iterdir()}
+    described = json.loads(made["package.json"])
+    exported = [each for each in described["exports"].values() if isinstance(each, dict)]
+    named = {each[key].removeprefix("./") for each in exported for key in ("types", "default")}
+    assert {described["main"], described["types"]} < named < {*described["files"]}
+    files = {name for name in made if name.endswith(".bin")}
     players = {f"{worn}-sneak{arms}.bin" for worn in ("cape", "elytra") for arms in ("", "-slim")}
     parts = "", "-still", "-fabrics"
     scenes = {f"{name}{part}.bin" for name in page.PLACEMENTS for part in parts}
-    assert found == named | scenes | {"cloth.bin", "shield.bin"} | players
+    words = {f"{code}.bin" for code in languages() if code != "en"} | {"words.bin"}
+    assert files == scenes | players | words | {"cloth.bin", "shield.bin"}
+    assert set(made) == files | named | {"README.md", "package.json"}
+    for module in ("drapery-banner.js", "drapery-designer.js"):
+        found = re.findall(
+            r'new URL\("\./([\w-]+\.bin)", import\.meta\.url\)', made[module].decode()
+        )
+        assert sorted(found) == sorted(files), "bundlers find literals"
+    inline = dict(
+        re.findall(r'^  "([\w-]+\.bin)": "(.*)",$', made["drapery-inline.js"].decode(), re.M)
+    )
+    assert {name: base64.b64decode(text) for name, text in inline.items()} == {
+        name: made[name] for name in files - players
+    }
+
+
+@pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
+def test_an_import_without_a_dom_defines_nothing(tmp_path: Path) -> None:
+    text = bundled_module(DESIGNER_ENTRY, DESIGNER_PUBLIC, beside(["cloth.bin"]))
+    (tmp_path / "bundle.mjs").write_text(text, encoding="utf-8")
+    program = 'import("./bundle.mjs").then((m) => console.log(m.readDesign("red").base))'
+    (tmp_path / "main.mjs").write_text(program, encoding="utf-8")
+    assert run_node(tmp_path / "main.mjs").strip() == "red"
 
 
 @pytest.mark.parametrize(

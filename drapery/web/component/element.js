@@ -1,6 +1,7 @@
 // <drapery-banner design="white creeper:lime" wind="4">: a banner of live cloth.
 
 import { nameOf, numberOf } from "./attributes.js";
+import { Element, define } from "./places.js";
 import { Player } from "./player.js";
 import { scenesInPage, wake } from "./shared.js";
 import { TABLES } from "./tables.js";
@@ -10,7 +11,7 @@ const FOLLOW = 75; // so far the wind turns to each side with the pointer [degre
 const ATTRIBUTES = ["kind", "wind", "direction", "seed", "phase", "paused", "alt"];
 const LESS_MOTION = globalThis.matchMedia?.("(prefers-reduced-motion: reduce)");
 
-export class DraperyBanner extends HTMLElement {
+export class DraperyBanner extends Element {
   static observedAttributes = ["design", "fabric", "view", "daylight", ...ATTRIBUTES];
   static sources = ["kind", "fabric"]; // attributes that need another scene
 
@@ -274,7 +275,4 @@ for (const element of [DraperyBanner, DraperyPlayer])
     });
 
 const ELEMENTS = { banner: DraperyBanner, player: DraperyPlayer, cape: DraperyCape, elytra: DraperyElytra };
-for (const [name, element] of Object.entries(ELEMENTS)) {
-  const tag = `drapery-${name}`;
-  if (!customElements.get(tag)) customElements.define(tag, element); // a second copy of the module does nothing
-}
+for (const [name, element] of Object.entries(ELEMENTS)) define(`drapery-${name}`, element);

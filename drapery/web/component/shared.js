@@ -1,5 +1,6 @@
 // What all elements of a page share: one WebGL context, one clock, and each file only once.
 
+import { PLACES } from "./places.js";
 import { Sheet } from "./sheet.js";
 
 export const players = new Set();
@@ -81,7 +82,7 @@ export function scenesInPage() {
   return names.map((name) => name.replace(/\.bin$/, ""));
 }
 
-// The bytes of a script of the page with this name, or of a file beside this module, which are
+// The bytes of a script of the page with this name, or of a file of the package, which are
 // compressed there; the same object for the same name.
 export function fileBytes(name) {
   if (!files.has(name)) {
@@ -94,9 +95,10 @@ export function fileBytes(name) {
 
 async function readFile(name) {
   const inPage = document.querySelector(`script[data-drapery="${CSS.escape(name)}"]`);
-  const answer = inPage
-    ? new Response(Uint8Array.from(atob(inPage.textContent.trim()), (each) => each.charCodeAt(0)))
-    : await fetch(new URL(`./${name.slice(0, -4)}.bin`, import.meta.url)); // so bundlers find the files
+  const place = inPage?.textContent.trim() ?? PLACES[name];
+  if (!place) throw new Error(`${name} is not among the files of this page or module`);
+  const answer =
+    typeof place === "string" ? new Response(Uint8Array.from(atob(place), (each) => each.charCodeAt(0))) : await fetch(place());
   if (!answer.ok) throw new Error(`${name}: the server answers ${answer.status}; put the files of the package beside the module`);
   const plain = answer.body.pipeThrough(new DecompressionStream("gzip"));
   return new Uint8Array(await new Response(plain).arrayBuffer());

@@ -1,15 +1,6 @@
-/** One layer of a design: the id of its pattern, and the name of its dye. */
-export interface Layer {
-  pattern: string;
-  dye: string;
-}
+import type { Design } from "./drapery-banner.js";
 
-/** A banner or shield; its lowest layer comes first. */
-export interface Design {
-  base: string;
-  layers: Layer[];
-  kind: "banner" | "shield";
-}
+export * from "./drapery-banner.js";
 
 /** The versions of commands; `bedrock` is the data of a block. */
 export type Version = "1.21.5" | "1.20.5" | "1.13" | "1.8" | "bedrock";
@@ -26,11 +17,6 @@ export interface DesignForms extends Design {
   lore: string[];
   count: number;
 }
-
-export class DesignError extends Error {}
-
-/** Read a design: shorthand, a command, an item, JSON, or a link of an editor. */
-export function readDesign(text: string): Design;
 
 /**
  * `<drapery-designer design="white creeper:lime" wind="4" linked>`: an editor of banners.

@@ -3,6 +3,7 @@
 import { numberOf } from "../component/attributes.js";
 import { DesignError } from "../component/design.js";
 import { DraperyBanner, takeOver } from "../component/element.js";
+import { Element, define } from "../component/places.js";
 import { fileBytes } from "../component/shared.js";
 import { TABLES } from "../component/tables.js";
 import { FormError, VERSIONS, notKept, plainText, writeCommand } from "./commands.js";
@@ -46,7 +47,7 @@ function kept(use) {
 
 const readJson = async (/** @type {string} */ name) => JSON.parse(new TextDecoder().decode(await fileBytes(name)));
 
-export class DraperyDesigner extends HTMLElement {
+export class DraperyDesigner extends Element {
   static observedAttributes = ["design", "wind"];
 
   /** @type {History} */
@@ -497,7 +498,8 @@ export class DraperyDesigner extends HTMLElement {
 
   #embed() {
     const { wind, direction, placement } = this.#history.work.motion;
-    const source = new URL("drapery-designer.js", import.meta.url).href;
+    const own = import.meta.url ?? ""; // in a bundle, the module of somebody's site or a file of its maker
+    const source = /^https?:.*\/drapery-designer\.js$/.test(own) ? own : "drapery-designer.js";
     return `<script type="module" src="${source}"></script>\n<drapery-banner design="${this.design}" kind="${placement}" wind="${wind}" direction="${direction}"></drapery-banner>`;
   }
 
@@ -556,4 +558,4 @@ export class DraperyDesigner extends HTMLElement {
   };
 }
 
-if (!customElements.get("drapery-designer")) customElements.define("drapery-designer", DraperyDesigner);
+define("drapery-designer", DraperyDesigner);
