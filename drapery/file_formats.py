@@ -37,7 +37,7 @@ class FileFormat:
     single: whether it is one file, with no other beside it.
     alpha: the transparency of its pixels: of 256 steps, of two, or none.
     matte: whether half-transparent pixels can be drawn over a colour.
-    lossy: whether a quality may be asked for, at which it loses something.
+    lossy: whether a quality may be asked for, at which it loses something; AVIF always does.
     moving: whether a 3-D file holds the motion of a loop.
     max_side: the largest width and height [px]; 0 for no limit of the format.
     max_fps: the most frames/s.
@@ -96,6 +96,14 @@ FORMATS = (
         writer="encode.webp.write_webp",
         reader="WEBP",
         about="without loss, unless `--quality` is given",
+    ),
+    FileFormat(
+        *("AVIF", (".avif",), ("still", "loop"), None, "image/avif"),
+        lossy=True,
+        max_side=65_535,
+        writer="encode.avif.write_avif",
+        reader="AVIF",
+        about="loses a little: quality 80, unless `--quality` is given",
     ),
     FileFormat(
         *("GIF", (".gif",), ("loop", "still"), "loop", "image/gif"),
@@ -183,6 +191,8 @@ FORMATS = (
 
 READERS = tuple(dict.fromkeys(each.reader for each in FORMATS if each.reader))
 """Pillow's names of the formats of pictures that are read."""
+LOOP_READERS = tuple(each.reader for each in FORMATS if each.reader and "loop" in each.kinds)
+"""Those of formats whose files may hold several frames."""
 
 
 @cache

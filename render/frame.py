@@ -18,7 +18,7 @@ class Frame:
     def save(self, path: str | Path, *, quality: int | None = None) -> None:
         """Write the picture in the format of the name's ending, see `drapery.file_formats`.
 
-        quality: of a WebP that may lose something, 1 to 100.
+        quality: of a WebP or AVIF that may lose something, 1 to 100.
         Raises OptionError for an ending or a size that no format of pictures has, and for a quality
         that does nothing, OutputError for a file that cannot be written.
         """
@@ -46,7 +46,7 @@ class Animation:
     def save(self, path: str | Path, *, quality: int | None = None) -> None:
         """Write the animation in the format of the name's ending, see `drapery.file_formats`.
 
-        quality: of a WebP that may lose something, 1 to 100.
+        quality: of a WebP or AVIF that may lose something, 1 to 100.
         Raises OptionError for an ending or a rate that no such format has and for no frames,
         OutputError for a target that cannot be written, BackendError for a video without PyAV.
         """

@@ -116,7 +116,7 @@ def test_each_format_has_a_largest_side_and_broken_ones_are_named(kind: str) -> 
 def test_other_formats_of_pillow_are_not_read() -> None:
     for kind in ("PPM", "ICO", "TGA"):
         with (
-            pytest.raises(OptionError, match="save it as PNG, WebP, GIF, TIFF, JPEG or BMP"),
+            pytest.raises(OptionError, match="save it as PNG, WebP, AVIF, GIF, TIFF, JPEG or BMP"),
             opened_picture(encoded(kind), "x"),
         ):
             pass

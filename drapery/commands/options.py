@@ -72,8 +72,8 @@ QualityOption = Annotated[
     int | None,
     typer.Option(
         metavar="1-100",
-        help="Of a WebP that may lose something.",
-        show_default="nothing is lost",
+        help="Of a WebP or AVIF that may lose something.",
+        show_default="WebP loses nothing, AVIF a little",
     ),
 ]
 

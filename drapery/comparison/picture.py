@@ -13,7 +13,7 @@ from PIL import Image, ImageSequence
 
 from drapery.comparison.files import MAX_PIXELS, opened, picture_bytes
 from drapery.errors import OptionError, counted
-from drapery.file_formats import READERS
+from drapery.file_formats import LOOP_READERS, READERS
 from drapery.picture_pixels import Channels, pixels_of, sixteen_bit_pixels
 from drapery.render import Animation, Frame, Pixels
 
@@ -92,7 +92,7 @@ def decode_picture(data: bytes, name: str, formats: Sequence[str] = READERS) -> 
                 f"{name} is {image.width}x{image.height} pixels, {count} times; at most"
                 f" {MAX_PIXELS >> 20} million pixels are read: shrink it"
             )
-        if count > 1 and image.format in ("PNG", "GIF", "WEBP"):
+        if count > 1 and image.format in LOOP_READERS:
             return _loop(image)
         deep = sixteen_bit_pixels(image, lambda: opened(data, name, formats))
         return Picture((deep if deep is not None else pixels_of(image, _depth(image, data)),))
@@ -103,7 +103,7 @@ def _depth(image: Image.Image, data: bytes) -> int:
 
 
 def _of_image(image: Image.Image) -> Picture:
-    if getattr(image, "n_frames", 1) > 1 and image.format in ("PNG", "GIF", "WEBP"):
+    if getattr(image, "n_frames", 1) > 1 and image.format in LOOP_READERS:
         place = image.tell()
         try:
             return _loop(image)

@@ -34,9 +34,9 @@ def save_frame(
 
     matte: in a format whose pixels are opaque or have no colour, the colour behind half-transparent
     pixels; with None, those of at least half alpha become opaque. quality: of a format that may
-    lose something, 1 to 100; with None it loses nothing. Raises OptionError for an unknown
-    ending, a matte or quality that does nothing and a picture that is too large for the format,
-    OutputError for a bad target.
+    lose something, 1 to 100; with None WebP loses nothing, AVIF a little. Raises OptionError for an
+    unknown ending, a matte or quality that does nothing and a picture that is too large for the
+    format, OutputError for a bad target.
     """
     format = check_target(path, "still")
     _check_matte(format, matte, "still")

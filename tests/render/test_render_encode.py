@@ -2,6 +2,7 @@
 
 import json
 import resource
+import time
 from collections.abc import Iterator
 from fractions import Fraction
 from io import BytesIO
@@ -12,14 +13,16 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
+from drapery.comparison import read_picture
 from drapery.errors import BackendError, OptionError, OutputError
-from drapery.render.encode import save_animation, save_frame
+from drapery.render.encode import avif, save_animation, save_frame
 from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.palette import ColourTable, median_cut, over_matte, reduced
 from drapery.render.encode.quick_png import quick_png_bytes
 from drapery.render.frame import Animation, Frame
 
-ANIMATED = ["a.gif", "a.apng", "a.png", "a.webp", "a.mp4", "a.webm", "a.sheet.png", "frames/"]
+ANIMATED = ["a.gif", "a.apng", "a.png", "a.webp", "a.avif", "a.mp4", "a.webm", "a.sheet.png"]
+ANIMATED += ["frames/"]
 LOSSLESS = ["a.apng", "a.png", "a.webp"]
 
 
@@ -514,6 +517,38 @@ def test_a_quality_makes_webp_smaller_and_keeps_its_transparency(tmp_path: Path)
         sizes.append((tmp_path / "a.webp").stat().st_size)
     assert sizes[0] > sizes[1] > sizes[2]
     assert len(decoded(tmp_path / "a.webp")) == len(frames)
+
+
+def test_avif_loses_little_shows_each_frame_for_its_time_and_has_no_time_of_day(
+    tmp_path: Path,
+) -> None:
+    frames, written = disc(), set()
+    for seconds in (0.0, 1.1):
+        time.sleep(seconds)
+        save_animation(frames, 12, tmp_path / "a.avif")
+        written.add((tmp_path / "a.avif").read_bytes())
+    assert len(written) == 1
+    save_frame(frames[0], tmp_path / "b.avif")
+    loop, still = read_picture(tmp_path / "a.avif"), read_picture(tmp_path / "b.avif")
+    assert loop.delays == (0.083, 0.084, 0.083, 0.083) and loop.plays == 0
+    assert len(still.frames) == 1
+    for found, frame in zip((*loop.frames, *still.frames), (*frames, frames[0]), strict=True):
+        solid = frame.pixels[..., 3] == 255
+        away = np.abs(found.astype(int) - frame.pixels)
+        assert away[solid][:, :3].mean() < 2
+        assert away[..., 3].mean() < 1
+
+
+def test_avif_says_so_where_its_frames_are_too_many_or_pillow_cannot_write_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(avif, "MAX_PIXELS", 2 * 96 * 128)
+    with pytest.raises(OptionError, match=r"too many for AVIF, .*or \.webp"):
+        save_animation(disc(3), 10, tmp_path / "a.avif")
+    monkeypatch.setattr(avif.features, "check", lambda name: False)
+    with pytest.raises(BackendError, match=r"built without AVIF; .* or write \.webp"):
+        save_animation(disc(2), 10, tmp_path / "a.avif")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_quality_that_does_nothing_is_refused(tmp_path: Path) -> None:
