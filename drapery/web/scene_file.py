@@ -6,8 +6,9 @@ its first `moment`, and
 aspect: width / height of the picture that the camera frames. sheets: the names of the sheets of
 texels of what shows the design, in the order of its layers ("" is the bare one), None where no
 other design can be shown. flag: a vertex of what shows it. views: cameras by the names of views;
-of no garment. daylights: the tints of the light at DAYLIGHTS. turned: the angle of rotation or
-facing [degrees], see `Settings.turned`.
+of no garment. daylights: the tints of the light at DAYLIGHTS. own: fabric, view and daylight of the
+settings, where they have names. turned: the angle of rotation or facing [degrees], see
+`Settings.turned`.
 textures: those of a player, by name: the layers that show one, and which part they show of one 64
 texels wide.
 plan0, plan1, …: the plan of each panel of cloth, see `drapery.web.wasm`; `grip` has the vertices of
@@ -133,7 +134,10 @@ def _body_scene(
     views = {name: astuple(frame_view(name, points, aspect)) for name in VIEWS}
     flag = scene[0]["runs"][-len(body.panels or body.parts)][0]
     tints = [_tint(body, settings, daylight) for daylight in DAYLIGHTS]
-    scene[0].update(sheets=sheets, turned=settings.turned, views=views, daylights=tints, flag=flag)
+    given = {name: getattr(settings, name) for name in ("fabric", "view", "daylight")}
+    own = {name: value for name, value in given.items() if isinstance(value, str | float | int)}
+    scene[0].update(sheets=sheets, turned=settings.turned, flag=flag)
+    scene[0].update(views=views, daylights=tints, own=own)
     try:
         scene[1]["still"] = _still(shown, settings)
     except OptionError as error:

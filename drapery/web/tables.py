@@ -28,6 +28,7 @@ from drapery.web.page import PLACEMENTS, POSES, SHIELD, WORN
 PATH = Path(__file__).parent / "component" / "tables.js"
 DESIGNER_PATH = Path(__file__).parent / "designer" / "tables.js"
 LANGUAGES_PATH = DESIGNER_PATH.with_name("languages.json")
+ENGLISH_PATH = DESIGNER_PATH.with_name("english.json")
 
 _CODED = {"1.13": "give-legacy", "1.8": "give-1.12", "bedrock": "bedrock"}
 """The versions that name patterns by codes, and the forms of their texts."""
@@ -37,6 +38,12 @@ _CODED = {"1.13": "give-legacy", "1.8": "give-1.12", "bedrock": "bedrock"}
 def languages() -> dict[str, Any]:
     """The designer's languages by code: their own name, that of the game, and their texts."""
     found: dict[str, Any] = json.loads(LANGUAGES_PATH.read_text(encoding="utf-8"))
+    return found
+
+
+def english() -> dict[str, str]:
+    """The designer's texts in English by key; `{name}` is a place to fill in."""
+    found: dict[str, str] = json.loads(ENGLISH_PATH.read_text(encoding="utf-8"))
     return found
 
 
@@ -67,6 +74,7 @@ def designer_module() -> str:
         "TITLES": titles,
         "LIMITS": {"loomLayers": LOOM_LAYERS},
         "LANGUAGES": {code: each["language"] for code, each in languages().items()},
+        "TEXTS": english(),
         "STYLES": {"sheet": _styles(DESIGNER_PATH.with_name("designer.css"))},
     }
     return _module(("drapery.banner", "and designer.css"), tables)

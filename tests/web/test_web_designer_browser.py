@@ -1,5 +1,6 @@
 """The designer in a real browser: edits, undo, commands, links, keys, and all widths."""
 
+import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -152,6 +153,57 @@ def test_numbers_are_typed_with_a_comma_and_errors_stand_at_their_field(
     assert run(chromium, wind) == "6"
 
 
+def chosen(chromium: Any, name: str, value: str) -> None:
+    """Choose in the menu of a name."""
+    chromium.execute_script(
+        f"const menu = [...{ROOT}.querySelectorAll('.menu')].find((e) => e.innerText.startsWith("
+        "arguments[0])).querySelector('select');"
+        "menu.value = arguments[1]; menu.dispatchEvent(new Event('change'));",
+        *(name, value),
+    )
+
+
+def test_fabric_view_placement_and_daylight_are_chosen_undone_and_kept(
+    chromium: Any, site: str
+) -> None:
+    open_designer(chromium, site)
+    banner = f"{ROOT}.querySelector('drapery-banner')"
+    names = ("kind", "fabric", "view", "daylight")
+    now = f"{json.dumps(names)}.map((name) => {banner}.getAttribute(name))"
+    assert run(chromium, now) == ["standing", None, None, None], "as the package has them"
+    chosen(chromium, "Placement", "wall")
+    chosen(chromium, "Fabric", "silk")
+    chosen(chromium, "View", "iso")
+    field = run(chromium, f"{ROOT}.querySelectorAll('.number')[2]")
+    chromium.execute_script("arguments[0].focus(); arguments[0].select();", field)
+    ActionChains(chromium).send_keys("0,4").perform()
+    assert run(chromium, now) == ["wall", "silk", "iso", "0.4"]
+    chromium.execute_script("window.copied.length = 0;")
+    press(chromium, ".side .row + .command + .hint + .row button:last-child")
+    embed = wait_until(lambda: run(chromium, "copied[0]"))
+    assert 'kind="wall"' in embed and 'fabric="silk" view="iso" daylight="0.4">' in embed
+    chromium.execute_script("location.reload();")
+    wait_until(lambda: run(chromium, f"!!{ROOT}?.querySelector('.app') && !window.copied"))
+    assert run(chromium, now) == ["wall", "silk", "iso", "0.4"]
+    for wanted in (["wall", "silk", "iso"], ["wall", "silk", None], ["wall", None, None]):
+        press(chromium, '[aria-keyshortcuts="Control+Z"]')
+        assert run(chromium, now) == [*wanted, None]
+    assert run(chromium, f"{ROOT}.querySelectorAll('.number')[2].value") == "1"
+
+
+def test_a_shield_is_drawn_as_a_shield(chromium: Any, site: str) -> None:
+    open_designer(chromium, f"{site}/#white,creeper:lime")
+    chromium.execute_script(f"{ROOT}.querySelector('[data-value=shield]').click()")
+    banner = f"{ROOT}.querySelector('drapery-banner')"
+    assert run(chromium, f"{banner}.getAttribute('kind')") == "shield"
+    name = f"{banner}.shadowRoot.querySelector('canvas').ariaLabel"
+    wait_until(lambda: run(chromium, name) == "white shield, lime creeper")
+    hidden = f"[...{ROOT}.querySelectorAll('.motion [hidden]')].filter((e) => !e.matches('.fault'))"
+    assert run(chromium, f"{hidden}.length") == 4, "wind, direction, fabric, placement"
+    press(chromium, '[aria-keyshortcuts="Control+Z"]')
+    assert run(chromium, f"{banner}.getAttribute('kind')") == "standing"
+
+
 def test_texts_are_pasted_with_name_lore_and_count(chromium: Any, site: str) -> None:
     open_designer(chromium, site)
     details = ItemDetails("@a", 3, "Flag", ("of the north",))
@@ -221,6 +273,8 @@ def test_all_patterns_are_on_one_screen_and_no_page_is_too_wide(chromium: Any, s
         assert run(chromium, "document.documentElement.scrollWidth") <= size[0], size
         dyes = run(chromium, f"{ROOT}.querySelector('.dye-grid').getBoundingClientRect().bottom")
         assert size != PHONE or dyes <= PHONE[1]  # in reach
+        rows = f"new Set([...{ROOT}.querySelectorAll('.tools > *')].map((e) => e.offsetTop)).size"
+        assert run(chromium, rows) == (1 if size[0] > 320 else 2)
 
 
 def test_a_language_is_chosen_and_kept(chromium: Any, site: str) -> None:

@@ -78,11 +78,11 @@ let numbers = 0; // of fields that have been made, for ids
 
 /** A slider with a field to type a number in; a comma is a point. A number out of bounds is an error at
  * the field, and changes nothing.
- * @param {{ name: string, unit: string, bounds: number[], error: string, change: (value: number) => void }} words */
-export function numberField({ name, unit, bounds: [least, most], error, change }) {
+ * @param {{ name: string, unit: string, bounds: number[], step?: number, error: string, change: (value: number) => void }} words */
+export function numberField({ name, unit, bounds: [least, most], step = 0.5, error, change }) {
   const id = `number${++numbers}`;
   const fault = make("p", { class: "fault", id: `${id}-fault`, role: "alert", hidden: true });
-  const slider = make("input", { type: "range", min: String(least), max: String(most), step: "0.5", "aria-label": name });
+  const slider = make("input", { type: "range", min: String(least), max: String(most), step: String(step), "aria-label": name });
   const field = make("input", { type: "text", inputMode: "decimal", class: "number", id, "aria-describedby": `${id}-unit ${id}-fault`, autocomplete: "off" });
   const tell = (/** @type {boolean} */ isWrong) => {
     fault.hidden = !isWrong;
@@ -114,10 +114,17 @@ export function numberField({ name, unit, bounds: [least, most], error, change }
   return { whole, show };
 }
 
+/** A menu with its name.
+ * @param {string} name @param {Record<string, string>} titles by value @param {(value: string) => void} choose */
+export function menu(name, titles, choose) {
+  const field = make("select", { onchange: () => choose(field.value) }, ...Object.entries(titles).map(([value, title]) => make("option", { value }, title)));
+  return { whole: make("label", { class: "menu" }, make("span", {}, name), field), show: (/** @type {string} */ value) => (field.value = value) };
+}
+
 /** Buttons of which one is pressed.
  * @param {string} label @param {Record<string, string>} titles by value @param {(value: string) => void} choose */
 export function segments(label, titles, choose) {
   const buttons = Object.entries(titles).map(([value, title]) => make("button", { type: "button", "data-value": value, onclick: () => choose(value) }, title));
   const group = make("div", { class: "segments", role: "group", "aria-label": label }, ...buttons);
-  return { group, show: (/** @type {string} */ value) => buttons.forEach((each) => each.setAttribute("aria-pressed", String(each.dataset.value === value))) };
+  return { whole: group, show: (/** @type {string} */ value) => buttons.forEach((each) => each.setAttribute("aria-pressed", String(each.dataset.value === value))) };
 }

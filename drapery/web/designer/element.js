@@ -7,7 +7,7 @@ import { Element, define } from "../component/places.js";
 import { fileBytes } from "../component/shared.js";
 import { TABLES } from "../component/tables.js";
 import { FormError, VERSIONS, notKept, plainText, writeCommand } from "./commands.js";
-import { PatternGrid, dyeButtons, numberField, segments } from "./controls.js";
+import { PatternGrid, dyeButtons, menu, numberField, segments } from "./controls.js";
 import { drawPixels, icon, iconButton, make } from "./dom.js";
 import { FACE, Faces } from "./faces.js";
 import { LayerList } from "./layers.js";
@@ -15,10 +15,13 @@ import {
   MOTION, History, changedLayer, duplicatedLayer, movedLayer, shownOf, withLayer, withoutLayer, workOf, writeHash, writeShorthand,
 } from "./model.js";
 import { readHash, readPasted } from "./pasted.js";
-import { LANGUAGES, LIMITS, STYLES, TITLES } from "./tables.js";
-import { TEXTS } from "./texts.js";
+import { LANGUAGES, LIMITS, STYLES, TEXTS, TITLES } from "./tables.js";
 
 const START = "yellow gradient:red gradient_up:magenta flower:white circle:orange curly_border:red";
+const VIEWS = ["front", "back", "iso", "hero"];
+/** @type {("fabric" | "view" | "daylight")[]} */
+const CHOSEN = ["fabric", "view", "daylight"]; // which a package has its own of
+const OF_CLOTH = ["wind", "direction", "fabric", "placement"]; // what no shield has
 const BREEZE = { ...MOTION, wind: 6 }; // in which an editor starts
 const NARROW = 704; // a page so narrow hides the motion until it is wanted [px]
 const STORED = "drapery-designer"; // the key of the history in the browser's storage, before the page's path
@@ -151,7 +154,8 @@ export class DraperyDesigner extends Element {
     this.#words = words;
     this.#faces = faces;
     const own = this.getAttribute("design");
-    this.#try(() => (this.#history = new History(readPasted(own ?? START, BREEZE).work)));
+    const breeze = { ...BREEZE, ...faces?.header.own };
+    this.#try(() => (this.#history = new History(readPasted(own ?? START, breeze).work)));
     const before = History.read(kept(() => sessionStorage.getItem(STORED + location.pathname)));
     if (before && own === null) this.#history = before;
     this.#try(() => (this.#history.work = this.#moved({ wind: numberOf("wind", this.getAttribute("wind")) ?? this.#history.work.motion.wind })));
@@ -322,7 +326,7 @@ export class DraperyDesigner extends Element {
       make("h1", {}, say("title")), ui.status,
       make("div", { class: "tools", role: "toolbar", "aria-label": say("title") }, ui.undo, ui.redo,
         iconButton("dice", say("random"), () => this.#random()),
-        iconButton("clear", say("clear"), () => this.#change({ ...this.#history.work, layers: [] })), ui.kind.group, ui.language));
+        iconButton("clear", say("clear"), () => this.#change({ ...this.#history.work, layers: [] })), ui.kind.whole, ui.language));
     const dyes = make("section", { class: "dyes", "aria-label": say("dyes") },
       make("div", { class: "mode-line" }, ui.heading, ui.hint, ui.done), ui.dyes.group);
     const made = ui.grid ? make("section", { class: "make", "aria-label": say("patterns") },
@@ -345,18 +349,20 @@ export class DraperyDesigner extends Element {
     banner.addEventListener("drapery-ready", () => (fault.hidden = true));
     const pause = make("button", { type: "button", class: "icon pause", onclick: () => (banner.paused = !banner.paused) });
     banner.addEventListener("drapery-pause", () => this.#showPause());
-    const number = (/** @type {"wind" | "direction"} */ name, /** @type {string} */ unit) => {
+    const number = (/** @type {"wind" | "direction" | "daylight"} */ name, /** @type {string} */ unit, step = 0.5) => {
       const [least, most] = TABLES.bounds[name];
       const change = (/** @type {number} */ value) => this.#change(this.#moved({ [name]: value }), name);
-      return numberField({ name: say(name), unit: say(unit), bounds: [least, most], error: say("notNumber", { least, most }), change });
+      return numberField({ name: say(name), unit, bounds: [least, most], step, error: say("notNumber", { least, most }), change });
     };
-    const placement = segments(say("place"), { standing: say("standing"), wall: say("wall") }, (value) => this.#change(this.#moved({ placement: value })));
-    const motion = { wind: number("wind", "unitSpeed"), direction: number("direction", "unitDegrees"), placement };
-    const note = make("p", { class: "hint", hidden: true }, say("shieldHint"));
-    Object.assign(this.#ui, { banner, flat, fault, pause, motion, note });
-    return make("section", { class: "stage", "aria-label": say("stage") },
-      make("div", { class: "sky" }, banner, pause), fault, note,
-      make("details", { class: "motion", open: this.clientWidth > NARROW }, make("summary", {}, say("motion")), motion.wind.whole, motion.direction.whole, placement.group));
+    const among = (/** @type {"placement" | "fabric" | "view"} */ name, /** @type {string[]} */ values) =>
+      menu(say(name), Object.fromEntries(values.map((each) => [each, say(each)])), (value) => this.#change(this.#moved({ [name]: value })));
+    const numbers = { wind: number("wind", say("unitSpeed")), direction: number("direction", say("unitDegrees")), daylight: number("daylight", "", 0.05) };
+    const menus = { placement: among("placement", TABLES.placements), fabric: among("fabric", TABLES.fabrics), view: among("view", VIEWS) };
+    const [fields, choices] = [numbers, menus].map((each) => Object.values(each).map(({ whole }) => whole));
+    const sky = make("div", { class: "sky" }, banner, pause);
+    Object.assign(this.#ui, { banner, flat, fault, pause, sky, motion: { ...numbers, ...menus } });
+    return make("section", { class: "stage", "aria-label": say("stage") }, sky, fault,
+      make("details", { class: "motion", open: this.clientWidth > NARROW }, make("summary", {}, say("motion")), ...fields, make("div", { class: "menus" }, ...choices)));
   }
 
   #side() {
@@ -412,13 +418,13 @@ export class DraperyDesigner extends Element {
     const { motion } = work;
     if (typeof this.#chosen === "number" && !work.layers[this.#chosen]) this.#chosen = null;
     ui.fault.hidden = true;
-    for (const [name, value] of Object.entries({ design: writeShorthand(shown), kind: motion.placement, wind: String(motion.wind), direction: String(motion.direction) }))
-      if (ui.banner.getAttribute(name) !== value) ui.banner.setAttribute(name, value);
-    ui.motion.wind.show(motion.wind);
-    ui.motion.direction.show(motion.direction);
-    ui.motion.placement.show(motion.placement);
+    for (const [name, value] of Object.entries(this.#attributes()))
+      if (ui.banner.getAttribute(name) !== value) ui.banner[name] = value;
+    for (const [name, control] of Object.entries(ui.motion)) control.show(motion[/** @type {keyof Motion} */ (name)]);
+    for (const name of OF_CLOTH) ui.motion[name].whole.hidden = work.kind === "shield";
+    ui.pause.hidden = work.kind === "shield";
+    ui.sky.style.setProperty("--day", String(motion.daylight));
     ui.kind.show(work.kind);
-    ui.note.hidden = work.kind !== "shield";
     ui.undo.disabled = !this.#history.past.length;
     ui.redo.disabled = !this.#history.future.length;
     ui.count.textContent = this.#say("layersCount", { count: work.layers.length, most: TABLES.maxLayers }) + (shown.layers.length > LIMITS.loomLayers ? ` · ${this.#say("loomNot", { most: LIMITS.loomLayers })}` : "");
@@ -429,6 +435,16 @@ export class DraperyDesigner extends Element {
     if (!faces) return;
     ui.layers.show(work, this.#chosen, faces);
     if (!this.#frame) this.#frame = requestAnimationFrame(() => this.#showFaces());
+  }
+
+  /** What the live element has; null for what is the package's own.
+   * @returns {Record<string, string | null>} */
+  #attributes() {
+    const { motion, kind } = this.#history.work;
+    const own = this.#faces?.header.own ?? {};
+    const changed = CHOSEN.map((name) => [name, motion[name] === own[name] ? null : String(motion[name])]);
+    const moved = { kind: motion.placement, wind: String(motion.wind), direction: String(motion.direction) };
+    return { design: this.design, ...(kind === "shield" ? { kind } : moved), ...Object.fromEntries(changed) };
   }
 
   #showMode() {
@@ -497,10 +513,10 @@ export class DraperyDesigner extends Element {
   }
 
   #embed() {
-    const { wind, direction, placement } = this.#history.work.motion;
+    const attributes = Object.entries(this.#attributes()).filter(([, value]) => value !== null).map(([name, value]) => ` ${name}="${value}"`);
     const own = import.meta.url ?? ""; // in a bundle, the module of somebody's site or a file of its maker
     const source = /^https?:.*\/drapery-designer\.js$/.test(own) ? own : "drapery-designer.js";
-    return `<script type="module" src="${source}"></script>\n<drapery-banner design="${this.design}" kind="${placement}" wind="${wind}" direction="${direction}"></drapery-banner>`;
+    return `<script type="module" src="${source}"></script>\n<drapery-banner${attributes.join("")}></drapery-banner>`;
   }
 
   async #copy(/** @type {string} */ text, /** @type {string} */ what) {
@@ -520,17 +536,22 @@ export class DraperyDesigner extends Element {
 
   async #save() {
     const { banner } = this.#ui;
+    const { kind } = this.#history.work;
     try {
-      const picture = await banner.picture();
-      const canvas = make("canvas", { width: picture.width, height: picture.height });
-      canvas.getContext("2d").putImageData(picture, 0, 0);
-      const blob = await new Promise((done) => canvas.toBlob(done));
-      const address = URL.createObjectURL(/** @type {Blob} */ (blob));
-      make("a", { href: address, download: "banner.png" }).click();
-      setTimeout(() => URL.revokeObjectURL(address), 10_000);
+      if (kind === "shield") return this.#give(await banner.snapshot(), "shield.png");
+      const { data, width, height } = await banner.picture();
+      const canvas = make("canvas", { width, height });
+      drawPixels(canvas, data);
+      this.#give(await new Promise((done) => canvas.toBlob(done)), "banner.png");
     } catch (error) {
       this.#tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
     }
+  }
+
+  #give(/** @type {Blob} */ file, /** @type {string} */ name) {
+    const address = URL.createObjectURL(file);
+    make("a", { href: address, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 10_000);
   }
 
   #read(/** @type {string} */ text) {

@@ -5,7 +5,7 @@ import { TABLES } from "../component/tables.js";
 /**
  * @typedef {{ pattern: string, dye: string, hidden?: boolean }} EditedLayer
  * @typedef {{ target: string, count: number, name: any, lore: any[] }} Item
- * @typedef {{ wind: number, direction: number, placement: string }} Motion
+ * @typedef {{ wind: number, direction: number, placement: string, fabric: string, view: string, daylight: number }} Motion
  * @typedef {{ base: string, kind: string, layers: EditedLayer[], item: Item, motion: Motion }} Work
  * @typedef {{ base: string, kind: string, layers: { pattern: string, dye: string }[] }} Shown
  */
@@ -15,7 +15,7 @@ const MOST_STEPS = 200; // of a history
 /** @type {Item} */
 export const ITEM = { target: "@p", count: 1, name: "", lore: [] };
 /** @type {Motion} */
-export const MOTION = { wind: 4, direction: 0, placement: "standing" };
+export const MOTION = { wind: 4, direction: 0, placement: "standing", fabric: "wool", view: "front", daylight: 1 };
 
 /** What a design is when its editing begins.
  * @param {Shown} design @param {Partial<Item>} [item] @param {Motion} [motion] @returns {Work} */
@@ -91,9 +91,8 @@ function isWork(work) {
     Number.isInteger(work.item?.count) &&
     typeof work.item.target === "string" &&
     Array.isArray(work.item.lore) &&
-    Number.isFinite(work.motion?.wind) &&
-    Number.isFinite(work.motion.direction) &&
-    TABLES.placements.includes(work.motion.placement)
+    ["wind", "direction", "daylight"].every((name) => Number.isFinite(work.motion?.[name])) &&
+    ["placement", "fabric", "view"].every((name) => TABLES[`${name}s`].includes(work.motion[name]))
   );
 }
 
