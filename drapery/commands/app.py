@@ -27,6 +27,7 @@ COMMANDS = (
     "packs",
     "batch",
     "serve",
+    "sign",
     "studio",
     "web",
     "doctor",

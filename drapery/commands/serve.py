@@ -42,7 +42,8 @@ def run(
     ] = None,
 ) -> None:
     """Answer /banner.png?design=…, /garment.png?name=… and /player.png?skin=…, and the same with
-    .gif and other endings; /openapi.json lists them and the parameters."""
+    .gif and other endings; /openapi.json lists them and the parameters. With DRAPERY_SECRET in the
+    environment, it answers only addresses that `drapery sign` has signed."""
     import os
 
     from drapery.errors import BackendError
@@ -58,6 +59,7 @@ def run(
     from drapery.batch.pool import JobLimits
     from drapery.batch.warmup import warm_up
     from drapery.serve.request_params import PictureLimits, ServiceConfig, pictures_in
+    from drapery.serve.signatures import SECRET, check_secret
 
     count = (os.cpu_count() or 1) if workers is None else workers
     within("port", port, 0, 65535)
@@ -69,6 +71,7 @@ def run(
     within("cache", cache, 1, 1 << 20, "MiB")
     within("side", side, 16, MAX_SIDE, "pixels")
     proxies = check_proxies(trusted_proxy or ())
+    secret = check_secret(os.environ.get(SECRET, ""))
     base = Settings(packs=tuple(packs or ()), format=format, size=(min(256, side), min(320, side)))
     open_packs(base.packs, format=format)
     listed = [{} if folder is None else pictures_in(folder) for folder in (skins, capes)]
@@ -82,6 +85,7 @@ def run(
         rate=rate,
         cache=cache << 20,
         deadline=deadline,
+        secret=secret,
     )
     say(f"listening at {address_of(listening)}; /openapi.json lists the parameters")
     run_server(app, listening, proxies)

@@ -39,6 +39,7 @@ from drapery.serve.request_params import (
     parse_query,
     read_request,
 )
+from drapery.serve.signatures import is_signed, unsigned
 from drapery.serve.uploads import MAX_UPLOAD, SkinUploads
 
 SERVED = tuple(each for each in formats_of("still", "loop") if each.single and not each.extra)
@@ -56,6 +57,7 @@ SENT = " The body is its skin, a PNG file."
 CLOSED_REQUEST = 499
 """The status that metrics count for a client that disconnected; it is not sent."""
 REASONS = {
+    403: "the service has a secret, and the address no signature made with it",
     304: "the picture that If-None-Match names is unchanged",
     408: "the skin did not arrive in time",
     413: "the skin is too large",
@@ -103,12 +105,13 @@ class PictureService:
         cache: int,
         waiting: int,
         deadline: float,
+        secret: bytes,
     ) -> None:
         """Start the workers; see `make_app`. store: where workers write. uploads: what they read
         of clients."""
         self.config, self.store, self.metrics, self.rates = config, store, metrics, rates
         self.uploads = uploads
-        self.deadline = deadline
+        self.deadline, self.secret = deadline, secret
         self.cache = PictureCache(cache)
         self.digests = DigestCache()
         for pack in config.base.pack_paths:
@@ -126,6 +129,10 @@ class PictureService:
             query = parse_query(request.scope["query_string"])
         except OptionError as error:
             return _refusal(414, [str(error)])
+        if self.secret:
+            if not is_signed(request.url.path, query, self.secret):
+                return _refusal(403, ["the address is not signed; sign it with `drapery sign`"])
+            query = unsigned(query)
         sent = b""
         if request.method == "POST":
             body = await self._body(request, end)
@@ -226,13 +233,14 @@ def make_app(
     cache: int = 64 << 20,
     waiting: int = 64,
     deadline: float = 30.0,
+    secret: bytes = b"",
 ) -> FastAPI:
     """Make the application; its worker processes live as long as it runs.
 
     workers: the number of processes that draw. limits: time and memory for one picture.
     rate: requests per minute of one client; 0 means no limit. cache: the size of the picture cache
     [bytes]. waiting: the most pictures that wait to be drawn. deadline: the longest time until an
-    answer [s].
+    answer [s]. secret: only addresses that are signed with it are answered; empty for all.
     """
     chosen, bounds = config or ServiceConfig(), limits or JobLimits(20.0, 1 << 30)
     metrics = Metrics()
@@ -250,6 +258,7 @@ def make_app(
                 cache=cache,
                 waiting=waiting,
                 deadline=deadline,
+                secret=secret,
             )
             app.state.service = service
             try:
