@@ -22,6 +22,7 @@ import { readDesign } from "component/design.js";
 import { TABLES } from "component/tables.js";
 import { writeCommand } from "component/../designer/commands.js";
 import { shownOf, writeHash } from "component/../designer/model.js";
+import { materials } from "component/../designer/loom.js";
 import { readPasted } from "component/../designer/pasted.js";
 
 // As the page that `drapery web` writes reads its address.
@@ -52,6 +53,7 @@ const READERS = {
   pasted: rewritten,
   design: readDesign,
   hash: readHash,
+  materials: (text) => materials(readDesign(text)),
   kind: (text) => nameOf("kind", text, TABLES.placements),
   wind: (text) => numberOf("wind", text) ?? null,
   direction: (text) => numberOf("direction", text) ?? null,

@@ -6,7 +6,7 @@ Python.
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from drapery.banner import (
     PATTERNS,
     Banner,
     Layer,
+    crafting_items,
     reader_tables,
     write_banner,
 )
@@ -74,10 +75,21 @@ def designer_module() -> str:
         "TITLES": titles,
         "LIMITS": {"loomLayers": LOOM_LAYERS},
         "LANGUAGES": {code: each["language"] for code, each in languages().items()},
+        "ITEMS": dict(_pattern_items()),
         "TEXTS": english(),
         "STYLES": {"sheet": _styles(DESIGNER_PATH.with_name("designer.css"))},
     }
     return _module(("drapery.banner", "and designer.css"), tables)
+
+
+def _pattern_items() -> Iterator[tuple[str, str | None]]:
+    """The patterns that take an item at the loom, and what it is crafted from beside paper."""
+    plain = {"white_wool", "stick", "black_dye", "paper", "loom"}
+    for name in PATTERNS:
+        items = crafting_items(Banner("white", (Layer(name, "black"),)))
+        more = {item.consumed: item.item for item in items if item.item not in plain}
+        if more:
+            yield name, more.get(True)
 
 
 def _codes(form: str) -> dict[str, str]:

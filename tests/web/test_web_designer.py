@@ -10,7 +10,14 @@ import pytest
 from page_reader import NODE, plain, read_in_page, some_banners
 
 from drapery import Banner, DesignError
-from drapery.banner import FORMS, ItemDetails, parse_banners, write_banner, write_give
+from drapery.banner import (
+    FORMS,
+    ItemDetails,
+    crafting_items,
+    parse_banners,
+    write_banner,
+    write_give,
+)
 from drapery.web import tables
 
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
@@ -89,6 +96,16 @@ def test_the_designer_reads_and_writes_what_python_does() -> None:
         details = found.details or ItemDetails()
         assert answer.found["texts"] == written(found.banner, details), text
         assert answer.found["left"] == [], text
+
+
+def test_the_materials_are_those_of_python() -> None:
+    for banner in some_banners():
+        items = crafting_items(banner)
+        found = read_in_page("materials", write_banner(banner, "shorthand")).found
+        named = [("_".join([*filter(None, (m.get("dye"), m["item"]))]), m["count"]) for m in found]
+        kept = sum(not item.consumed and item.item != "loom" for item in items)
+        used = [(item.item, item.count) for item in items if item.consumed]
+        assert named == [*used, *kept * [("bannerPattern", 1)]]
 
 
 def test_the_address_of_a_design_is_read_again() -> None:

@@ -204,6 +204,41 @@ def test_a_shield_is_drawn_as_a_shield(chromium: Any, site: str) -> None:
     assert run(chromium, f"{banner}.getAttribute('kind')") == "standing"
 
 
+def test_the_loom_names_materials_and_steps(chromium: Any, site: str) -> None:
+    open_designer(chromium, f"{site}/#white,creeper:lime,flow:red,border:lime")
+    lines = f"[...{ROOT}.querySelectorAll('ARG.loom li')].map((e) => e.textContent)"
+    assert run(chromium, lines.replace("ARG", "ol")) == [
+        *("Lime: Creeper", "Red: Flow", "Lime: Border"),
+    ]
+    assert run(chromium, lines.replace("ARG", "ul")) == [
+        *("6 × Wool (White)", "1 × Stick", "2 × Dye (Lime)", "1 × Dye (Red)", "1 × Paper"),
+        *("1 × Creeper head", "1 × Banner pattern: Creeperkept"),
+        "1 × Banner pattern: Flowkept, from trial chambers",
+    ]
+
+
+FILM = """
+const [banner, done] = arguments;
+const film = document.createElement("video");
+banner.record(0.7).then(async (blob) => {
+  film.src = URL.createObjectURL(blob);
+  film.muted = true;
+  await film.play();
+  done([blob.type.split(";")[0], blob.size, film.videoWidth, film.videoHeight, banner.paused]);
+}).catch((error) => done(String(error)));
+"""
+
+
+def test_a_film_of_the_moving_cloth_is_played_by_the_browser(chromium: Any, site: str) -> None:
+    open_designer(chromium, site)
+    banner = f"{ROOT}.querySelector('drapery-banner')"
+    wait_until(lambda: run(chromium, f"!{banner}.shadowRoot.querySelector('canvas').hidden"))
+    width = run(chromium, f"{banner}.shadowRoot.querySelector('canvas').width")
+    kind, size, *shown, paused = chromium.execute_async_script(FILM, run(chromium, banner))
+    assert kind in ("video/webm", "video/mp4") and size > 2000
+    assert shown[0] == width and paused, "what it was before"
+
+
 def test_texts_are_pasted_with_name_lore_and_count(chromium: Any, site: str) -> None:
     open_designer(chromium, site)
     details = ItemDetails("@a", 3, "Flag", ("of the north",))

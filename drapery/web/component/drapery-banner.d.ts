@@ -41,6 +41,8 @@ export class DraperyBanner extends HTMLElement {
   alt: string | null;
   /** A PNG of what is seen now. */
   snapshot(): Promise<Blob>;
+  /** A film of the moving cloth, WebM or MP4 by the browser; 4 seconds unless given. */
+  record(seconds?: number): Promise<Blob>;
   /** The pixels that `drapery render` draws of the design with the options of the package. */
   picture(): Promise<ImageData>;
 }

@@ -21,6 +21,7 @@ export class DraperyBanner extends Element {
   #wind = { wind: undefined, direction: undefined, seed: undefined, phase: undefined };
   #isPaused = undefined; // as the user or the page wants it now; else as the attribute and the system say
   #isStarting = false;
+  #films = 0; // that are recorded now
   #isChanged = false; // since the page was told
   #told = new Set();
   #canvas = document.createElement("canvas");
@@ -92,6 +93,23 @@ export class DraperyBanner extends Element {
   async snapshot() {
     this.#shown.draw();
     return new Promise((done) => this.#canvas.toBlob(done));
+  }
+
+  // A film of the live cloth, so long [s], as a Blob in the browser's own format: WebM, or MP4. The cloth
+  // moves, whether it is in sight, paused or not.
+  async record(seconds = 4) {
+    const recorder = new MediaRecorder(this.#shown.canvas.captureStream());
+    const parts = [];
+    recorder.ondataavailable = ({ data }) => parts.push(data);
+    const ended = new Promise((done) => (recorder.onstop = done));
+    this.#films++;
+    this.#play();
+    recorder.start();
+    setTimeout(() => recorder.stop(), 1000 * seconds);
+    await ended;
+    this.#films--;
+    this.#play();
+    return new Blob(parts, { type: recorder.mimeType });
   }
 
   // The pixels of the still that `drapery render` draws of the design with the scene's options.
@@ -191,7 +209,7 @@ export class DraperyBanner extends Element {
 
   #play(seen = this.#seen) {
     this.#seen = seen;
-    this.#try((player) => (player.playing = seen && !this.paused));
+    this.#try((player) => (player.playing = this.#films > 0 || (seen && !this.paused)));
   }
 
   #listen() {

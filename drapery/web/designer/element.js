@@ -11,6 +11,7 @@ import { PatternGrid, dyeButtons, menu, numberField, segments } from "./controls
 import { drawPixels, icon, iconButton, make } from "./dom.js";
 import { FACE, Faces } from "./faces.js";
 import { LayerList } from "./layers.js";
+import { materials } from "./loom.js";
 import {
   MOTION, History, changedLayer, duplicatedLayer, movedLayer, shownOf, withLayer, withoutLayer, workOf, writeHash, writeShorthand,
 } from "./model.js";
@@ -23,6 +24,8 @@ const VIEWS = ["front", "back", "iso", "hero"];
 const CHOSEN = ["fabric", "view", "daylight"]; // which a package has its own of
 const OF_CLOTH = ["wind", "direction", "fabric", "placement"]; // what no shield has
 const BREEZE = { ...MOTION, wind: 6 }; // in which an editor starts
+/** @type {Record<string, string>} */
+const FOUND = { globe: "fromCartographer", piglin: "fromBastion", flow: "fromTrial", guster: "fromTrial" }; // pattern items
 const NARROW = 704; // a page so narrow hides the motion until it is wanted [px]
 const STORED = "drapery-designer"; // the key of the history in the browser's storage, before the page's path
 const LANGUAGE = ":language";
@@ -379,18 +382,20 @@ export class DraperyDesigner extends Element {
     const copy = make("button", { type: "button", class: "main", onclick: () => this.#copy(command.value, "copyCommand") }, say("copyCommand"));
     const link = make("button", { type: "button", onclick: () => this.#copy(this.#link(), "copyLink") }, say("copyLink"));
     const png = make("button", { type: "button", onclick: () => this.#save() }, say("png"));
+    const film = make("button", { type: "button", onclick: () => this.#film(film) }, say("animation"));
+    const loom = make("details", { class: "panel" });
     const embed = make("button", { type: "button", onclick: () => this.#copy(this.#embed(), "copyEmbed") }, say("copyEmbed"));
     const field = make("input", { type: "text", class: "paste", placeholder: say("pasteHint"), "aria-label": say("paste"), "aria-describedby": "paste-fault", spellcheck: false, autocomplete: "off",
       onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "Enter" && this.#read(field.value) });
     const wrong = make("p", { class: "fault", id: "paste-fault", role: "alert", hidden: true });
     const read = make("button", { type: "button", onclick: () => this.#read(field.value) }, say("read"));
-    Object.assign(this.#ui, { count, empty, version, command, about, copy, field, wrong });
+    Object.assign(this.#ui, { count, empty, version, command, about, copy, field, wrong, loom, film });
     return make("section", { class: "side", "aria-label": `${say("layers")}, ${say("share")}` },
       make("div", { class: "panel" }, make("div", { class: "head" }, make("h2", {}, say("layers")), count), empty, layers.list),
       make("div", { class: "panel" }, make("h2", {}, say("share")),
         make("div", { class: "row" }, version, copy), command, about,
-        make("div", { class: "row" }, link, png, embed)),
-      make("div", { class: "panel" }, make("h2", {}, say("paste")), make("div", { class: "row" }, field, read), wrong));
+        make("div", { class: "row" }, link, png, film, embed)),
+      make("div", { class: "panel" }, make("h2", {}, say("paste")), make("div", { class: "row" }, field, read), wrong), loom);
   }
 
   #versionTitle(/** @type {string} */ id) {
@@ -422,7 +427,7 @@ export class DraperyDesigner extends Element {
       if (ui.banner.getAttribute(name) !== value) ui.banner[name] = value;
     for (const [name, control] of Object.entries(ui.motion)) control.show(motion[/** @type {keyof Motion} */ (name)]);
     for (const name of OF_CLOTH) ui.motion[name].whole.hidden = work.kind === "shield";
-    ui.pause.hidden = work.kind === "shield";
+    ui.pause.hidden = ui.film.disabled = work.kind === "shield";
     ui.sky.style.setProperty("--day", String(motion.daylight));
     ui.kind.show(work.kind);
     ui.undo.disabled = !this.#history.past.length;
@@ -432,6 +437,7 @@ export class DraperyDesigner extends Element {
     this.#showMode();
     this.#showPause();
     this.#showCommand();
+    this.#showLoom(shown);
     if (!faces) return;
     ui.layers.show(work, this.#chosen, faces);
     if (!this.#frame) this.#frame = requestAnimationFrame(() => this.#showFaces());
@@ -505,6 +511,18 @@ export class DraperyDesigner extends Element {
     else about.textContent = text.length > CHAT && this.#version !== "bedrock" ? this.#say("long", { count: text.length }) : "";
   }
 
+  // The materials and the steps at the loom.
+  #showLoom(/** @type {Shown} */ design) {
+    const say = this.#say.bind(this);
+    const items = materials(design).map(({ item, count, dye, pattern }) => {
+      const notes = pattern ? [say("kept"), ...(FOUND[pattern] ? [say(FOUND[pattern])] : [])] : [];
+      const name = say(item, { pattern: pattern && this.#caption(pattern) }) + (dye ? ` (${this.#dyeTitle(dye)})` : "");
+      return make("li", {}, `${count} × ${name}`, make("span", { class: "hint" }, notes.join(", ")));
+    });
+    const steps = design.layers.map(({ pattern, dye }) => make("li", {}, `${this.#dyeTitle(dye)}: ${this.#caption(pattern)}`));
+    this.#ui.loom.replaceChildren(make("summary", {}, say("loom")), make("ul", { class: "loom" }, ...items), make("ol", { class: "loom" }, ...steps));
+  }
+
   // Taking in and out
 
   #link() {
@@ -545,6 +563,18 @@ export class DraperyDesigner extends Element {
       this.#give(await new Promise((done) => canvas.toBlob(done)), "banner.png");
     } catch (error) {
       this.#tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
+    }
+  }
+
+  async #film(/** @type {HTMLButtonElement} */ button) {
+    button.disabled = true;
+    try {
+      const film = await this.#ui.banner.record();
+      this.#give(film, `banner.${film.type.includes("mp4") ? "mp4" : "webm"}`);
+    } catch (error) {
+      this.#tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
+    } finally {
+      button.disabled = false;
     }
   }
 
