@@ -1,6 +1,7 @@
 """What the site's builder adds: the reference of Python, live cloth, links, llms.txt."""
 
 import logging
+import os
 import re
 import shutil
 from collections.abc import Callable
@@ -14,9 +15,10 @@ from drapery.web.wasm.module import module_places
 
 ROOT = Path(__file__).resolve().parent.parent
 GALLERY = "live-gallery-page.html"
-DESIGNER = "designer/index.html"
+DESIGNER = os.environ.get("DRAPERY_DESIGNER")
+"""The address of the designer from the first page, which `release.site` gives."""
 DESIGNER_GUIDE = "[the designer](guides/web.md#the-designer)"
-"""What the first page of a checkout says, where the site has the designer itself."""
+"""What the first page says where there is no designer beside the docs."""
 PYTHON_NAMES = re.compile(r"<!-- begin: python ([\w.]+) -->\n(?s:.*?)<!-- end: python \1 -->")
 """What a checkout shows of a module; mkdocstrings shows more."""
 pages: dict[str, tuple[str, str]] = {}
@@ -52,7 +54,7 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
     """The page with the reference of a module; links that lead out of the site are text."""
     text = PYTHON_NAMES.sub(r"::: \1\n", markdown)
     text = text.replace("<!-- live gallery -->", _live_gallery())
-    if page.is_homepage and _has_kernels():
+    if page.is_homepage and DESIGNER:
         text = text.replace(DESIGNER_GUIDE, f'<a href="{DESIGNER}">the designer</a>')
     text = re.sub(r"\[([^]]+)\]\((?:\.\./)+(?!docs/)([\w./-]+)\)", _outside(page, config), text)
     pages[page.file.src_uri] = page.title, text
@@ -60,15 +62,13 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
 
 
 def on_post_build(config: Any) -> None:
-    """Write llms.txt, the Markdown of each page, the element, its gallery and the designer."""
+    """Write llms.txt, the Markdown of each page, the element and its gallery."""
     site = Path(config["site_dir"])
     if config["extra_javascript"]:
-        from drapery.web.designer_page import write_designer
         from drapery.web.gallery import write_gallery
         from drapery.web.package import write_component
 
         write_component(site / "element", Settings())
-        write_designer((site / DESIGNER).parent, Settings())
         write_gallery(site / "reference" / GALLERY, Settings())
     lines = [f"# {config['site_name']}", "", f"> {config['site_description']}", ""]
     for name, (title, text) in pages.items():

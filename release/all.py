@@ -5,7 +5,7 @@ In a checkout without changes it writes, with the same bytes on every run with t
     python/           the source archive and the wheel; with --platform TAG also that of this one
     npm/              the package of the element
     blender/          the add-on of one file
-    site.tar.gz       the docs, with live cloth and the designer
+    site.tar.gz       the designer, and the docs with live cloth
     drapery.cdx.json  the dependencies in the versions of constraints.txt, as CycloneDX
     SHA256SUMS        the checksums of these files, for `sha256sum --check`
 
@@ -24,7 +24,7 @@ import venv
 from collections.abc import Sequence
 from pathlib import Path
 
-from release import build, npm
+from release import build, npm, site
 
 SUMS = "SHA256SUMS"
 ADD_ON = build.ROOT / "release" / "blender" / "drapery_banners.py"
@@ -51,7 +51,7 @@ def build_all(out: Path, platform: str | None) -> None:
     shutil.copy(ADD_ON, out / "blender")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        run("properdocs", "build", "--strict", "--quiet", "-f", "mkdocs.yml", "-d", folder / "site")
+        site.build(folder / "site")
         (out / "site.tar.gz").write_bytes(build.packed(folder / "site", "site"))
         (wheel,) = (out / "python").glob("*-none-any.whl")
         (out / "drapery.cdx.json").write_bytes(components(wheel, folder / "env"))

@@ -1,0 +1,70 @@
+"""Build the site: `python -m release.site [-o site]`.
+
+The designer is at its root and the docs, with live cloth, in `docs/`; each leads to the other. All
+links are relative, so the site works under any path. The kernels that pages play must have been
+compiled before: `python -m drapery.web.wasm.build`.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from drapery import Settings
+from drapery.web.designer_page import PAGE, write_designer
+from drapery.web.page import SIZE
+from drapery.web.wasm.module import module_places
+from release.build import ROOT, epoch
+
+DOCS = "docs"
+DESIGNER = f"../{PAGE}"
+"""The designer's address for the first page of the docs."""
+LINKS = {
+    "docs/index.html": "Docs",
+    "docs/guides/web.html": "Put it on a page",
+    "docs/guides/index.html": "Guides",
+    "docs/reference/live-gallery.html": "Live gallery",
+}
+STYLE = """nav {
+  display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 0.25rem 1.25rem;
+  padding: 0.625rem 1rem 0; max-inline-size: 98rem; margin-inline: auto;
+  font: 0.9375rem/1.4 system-ui, sans-serif;
+}
+nav a { color: light-dark(#9c2f27, #e0796f); }
+drapery-designer { min-block-size: calc(100vh - 2rem) !important; }
+</style>
+"""
+
+
+def build(out: Path) -> None:
+    """Write the site into a folder. Raises SystemExit without the kernels, and CalledProcessError
+    where the docs have a fault."""
+    if not module_places()[0].is_file():
+        raise SystemExit("there are no kernels; run python -m drapery.web.wasm.build first")
+    words = ("build", "--strict", "--quiet", "-f", "mkdocs.yml", "-d", (out / DOCS).resolve())
+    env = os.environ | {"DRAPERY_DESIGNER": DESIGNER, "SOURCE_DATE_EPOCH": str(epoch())}
+    command = [sys.executable, "-m", "properdocs", *words]
+    subprocess.run(command, cwd=ROOT, env=env, check=True, stdout=sys.stderr)
+    write_designer(out, Settings(size=SIZE))
+    page = out / PAGE
+    page.write_text(linked(page.read_text("utf-8")), "utf-8", newline="\n")
+
+
+def linked(page: str) -> str:
+    """The designer's page with links to the docs above it."""
+    links = "".join(f'<a href="{target}">{title}</a>' for target, title in LINKS.items())
+    page = page.replace("</style>\n", STYLE, 1)
+    return page.replace("<body>\n", f'<body>\n<nav aria-label="Site">{links}</nav>\n', 1)
+
+
+def main(words: Sequence[str] | None = None) -> None:
+    """The command."""
+    parser = argparse.ArgumentParser("python -m release.site", description=__doc__)
+    parser.add_argument("-o", "--out", type=Path, default=Path("site"))
+    build(parser.parse_args(words).out)
+
+
+if __name__ == "__main__":
+    main()
