@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from drapery.mesh import Array
-from drapery.scenes import cape_pixel, julia
+from drapery.scenes import hero_run, julia
 from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.dots import CapeTweaks, dot_grid, step
+from drapery.scenes.hero_cape import cape_dots, hooks_of, worn_dots
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.hero import LEGS, sprite
 from drapery.style.sheet import Sheet
@@ -67,19 +68,17 @@ def test_the_curtain_plays_at_its_own_rate() -> None:
 
 def cape(tweaks: CapeTweaks) -> tuple[Array, list[float]]:
     """Two loops of the dots from the hero's feet, [F, N, 2], and the times."""
-    frames = list(
-        cape_pixel.motion(cape_pixel.CapePixelParameters(), tweaks, Clip((64, 64), 240, 60.0))
-    )
+    frames = list(worn_dots(cape_dots((3, 6)), tweaks, 3, Clip((64, 64), 240, 60.0)))
     return np.stack([places for places, _ in frames]), [time for _, time in frames]
 
 
 @pytest.mark.parametrize("tweaks", [NONE, CapeTweaks()])
 def test_a_pixel_cape_stays_on_its_hooks_and_above_the_ground(tweaks) -> None:
     places, times = cape(tweaks)
-    dots = dot_grid(3, 6, cape_pixel.ACROSS, cape_pixel.DOWN)
+    dots = cape_dots((3, 6))
     for dot, time in zip(places, times, strict=True):
-        hero = cape_pixel.hero_at(time)
-        hooks = cape_pixel.hooks_of(dots, hero, tweaks)
+        hero = hero_run.hero_at(time)
+        hooks = hooks_of(dots, hero, tweaks)
         np.testing.assert_allclose(dot[dots.pinned], hooks, atol=1e-9)
         assert (dot[:, 1] + hero.feet[1]).max() <= 1e-9
 
@@ -106,7 +105,7 @@ def test_each_tweak_does_what_it_is_for() -> None:
 
     assert speed(cape(CapeTweaks(True, False, False, False))[0]) < 0.8 * speed(plain)
     assert speed(cape(CapeTweaks(False, True, False, False))[0]) < 0.8 * speed(plain)
-    runs = [cape_pixel.hero_at(time).velocity[0] > 0 for time in times]
+    runs = [hero_run.hero_at(time).velocity[0] > 0 for time in times]
     behind = [
         cape(t)[0][runs][:, end, 0].mean() for t in (NONE, CapeTweaks(False, False, True, False))
     ]
@@ -117,10 +116,10 @@ def test_each_tweak_does_what_it_is_for() -> None:
 
 
 def test_the_hero_runs_jumps_and_lands_and_a_loop_has_no_seam() -> None:
-    legs = {cape_pixel.hero_at(time).legs for time in np.arange(0, 4, 0.02)}
+    legs = {hero_run.hero_at(time).legs for time in np.arange(0, 4, 0.02)}
     assert legs == set(LEGS)
-    feet = np.stack([cape_pixel.hero_at(time).feet for time in np.arange(0, 4.01, 0.02)])
-    assert np.isclose(feet[-1, 0] - feet[0, 0], cape_pixel.DISTANCE, atol=2)
+    feet = np.stack([hero_run.hero_at(time).feet for time in np.arange(0, 4.01, 0.02)])
+    assert np.isclose(feet[-1, 0] - feet[0, 0], hero_run.DISTANCE, atol=2)
     assert feet[:, 1].max() == 0 and np.isclose(feet[:, 1].min(), -17, atol=0.2)
     assert (np.diff(feet[:, 0]) >= 0).all()
     for name in LEGS:
