@@ -1,20 +1,28 @@
 """Banner blocks in a scene: their flags, simulated as one batch in the scene's own space."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from drapery.banner import Banner
-from drapery.cloth import Cloth, State, grid
+from drapery.cloth import Cloth, Collisions, Force, Gravity, State, grid
 from drapery.mesh import Mesh
 from drapery.packs import Packs
 from drapery.render import Material, Model
+from drapery.scenes.catalogue import Clip
+from drapery.scenes.moving import motion
 from drapery.style import FLAG_MAPPING, FLAG_SIZE, Shell, flag_material, make_shell, turn
 from drapery.style.block import SCALE, Placement, flag_origin, wood
+from drapery.style.block_world import blocks, plateau
 from drapery.style.board import moved
 from drapery.style.layers import wood_material
-from drapery.style.tailoring import garment
+from drapery.style.scenery import shadow
+from drapery.style.sheet import Sheet
+from drapery.style.tailoring import ClothModel
+
+FLAG_STEP = 1.0 / 60.0
+"""The longest time step of a flag [s]."""
 
 
 @dataclass(frozen=True)
@@ -26,21 +34,87 @@ class BannerBlock:
     facing: float = 0.0
 
 
+@dataclass(frozen=True, eq=False)
+class Flags:
+    """The flags of banner blocks, which hang from their bars, as one batch of B equal cloths.
+
+    cloth: one of them; its top edge is at y = 0.
+    shell: how its thick, textured shell follows it.
+    start: all at rest, each at its block, positions [B, N, 3].
+    materials: flag number i has material number i, from the first again after the last. They are
+        the same objects in every picture, because the renderer recognises them by identity.
+    """
+
+    cloth: Cloth
+    shell: Shell
+    start: State
+    materials: tuple[Material, ...]
+
+    def motion(
+        self,
+        clip: Clip,
+        *forces: Force,
+        settle: float = 0.0,
+        collisions: Collisions | None = None,
+    ) -> Iterator[State]:
+        """All flags at each frame of a clip, under their weight and other forces.
+
+        settle: time before the first frame [s].
+        collisions: what they meet.
+        Raises OptionError.
+        """
+        return motion(
+            self.cloth,
+            clip,
+            forces=(Gravity(), *forces),
+            collisions=collisions,
+            start=self.start,
+            settle=settle,
+            step=FLAG_STEP,
+        )
+
+    def model(self, state: State, thickness: float = 1.0) -> ClothModel:
+        """The flags of a state. thickness: [texels]."""
+        index = np.arange(len(state.positions), dtype=np.int32) % len(self.materials)
+        sheets = Sheet(state.positions, self.shell, thickness * SCALE, SCALE, FLAG_SIZE)
+        return ClothModel(sheets.mesh(), self.materials, index, sheets)
+
+
+def hang_flags(
+    banner_blocks: Sequence[BannerBlock],
+    shape: tuple[int, int],
+    designs: Sequence[str],
+    packs: Packs,
+) -> Flags:
+    """The flags of banner blocks at rest.
+
+    shape: particles across and down each flag.
+    designs: of the first flags, and from the first again after the last.
+    packs: with the textures.
+    Raises FormatError or PackError.
+    """
+    cloth = flag_cloth(shape)
+    shell = make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING, cloth.grid_shape)
+    positions = np.stack([_at(_sheet(cloth, block), block).positions for block in banner_blocks])
+    start = State(positions, np.zeros_like(positions))
+    return Flags(cloth, shell, start, design_materials(designs, packs))
+
+
 def flag_cloth(shape: tuple[int, int]) -> Cloth:
     """The flag of a banner, its top edge at y = 0. shape: particles across and down."""
     return grid(*shape, *FLAG_SIZE)
 
 
-def flag_shell(cloth: Cloth) -> Shell:
-    """How a flag's thick, textured shell follows the flag."""
-    return make_shell(cloth.triangles, cloth.uvs, FLAG_MAPPING, cloth.grid_shape)
+def banner_ground(
+    banner_blocks: Sequence[BannerBlock], size: tuple[int, int], packs: Packs
+) -> tuple[Model, ...]:
+    """A piece of grass about the origin, with standing blocks' wood and their shadows on it.
 
-
-def flags_at_rest(cloth: Cloth, banner_blocks: Sequence[BannerBlock]) -> State:
-    """All flags at rest, each at its block, shape [B, N, 3]."""
-    sheets = [_at(_sheet(cloth, block), block).positions for block in banner_blocks]
-    positions = np.stack(sheets)
-    return State(positions, np.zeros_like(positions))
+    size: its width and depth [blocks].
+    """
+    grass = blocks(plateau(*size), packs)
+    shadows = [shadow((block.cell[0] + 0.5, block.cell[2] + 0.5), 0.42) for block in banner_blocks]
+    return (*grass, *shadows, wood_model(banner_blocks, packs))
 
 
 def wood_model(banner_blocks: Sequence[BannerBlock], packs: Packs) -> Model:
@@ -55,22 +129,9 @@ def wood_model(banner_blocks: Sequence[BannerBlock], packs: Packs) -> Model:
     return Model(mesh, (wood_material(packs),))
 
 
-def flag_materials(designs: Sequence[str], packs: Packs) -> tuple[Material, ...]:
+def design_materials(designs: Sequence[str], packs: Packs) -> tuple[Material, ...]:
     """The materials of flags of these designs. Raises FormatError or PackError."""
     return tuple(flag_material(Banner.parse(design), packs) for design in designs)
-
-
-def flag_models(
-    shell: Shell, state: State, materials: tuple[Material, ...], thickness: float = 1.0
-) -> Model:
-    """The flags of a state. thickness: in texels.
-
-    materials: flag number i has material number i, from the first again after the last. Give
-    every frame the same objects, because the renderer recognises them by identity.
-    """
-    index = np.arange(len(state.positions), dtype=np.int32) % len(materials)
-    thick, size = thickness * SCALE, FLAG_SIZE
-    return garment(shell, state.positions, thick, *materials, index=index, size=size, texel=SCALE)
 
 
 def _sheet(cloth: Cloth, block: BannerBlock) -> Mesh:

@@ -1,15 +1,16 @@
 """A cape on a walking figure: thick cloth held at the shoulders, moved by back, arms and legs."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from drapery.banner import DYE_NAMES
-from drapery.cloth import State, Wind
+from drapery.cloth import State
 from drapery.garments import SewnCloth
 from drapery.packs import open_packs
 from drapery.render import Scene
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.gait import LOOP, MAX_WALK, Gait
+from drapery.scenes.gait import MAX_WALK, Gait
+from drapery.scenes.moving import LOOP, looped_wind
 from drapery.scenes.parameters import (
     SceneParameters,
     grid_parameter,
@@ -19,6 +20,7 @@ from drapery.scenes.parameters import (
     wind_parameter,
 )
 from drapery.scenes.stroll import cloths_of, walk_scenes, worn_states
+from drapery.scenes.variants import in_material
 from drapery.style.figure import SKINS
 from drapery.style.tailoring import dyed
 
@@ -50,12 +52,13 @@ def cape_cloth(parameters: CapeParameters) -> SewnCloth:
     """The garment `cape` in another dye."""
     (sewn,) = cloths_of("cape", parameters.thickness, parameters.grid)
     wool = dyed(open_packs(()).texture("entity/player/cape"), parameters.dye)
-    return replace(sewn, pieces=(replace(sewn.pieces[0], material=wool),))
+    return in_material(sewn, wool)
 
 
 def cape_states(
     parameters: CapeParameters, sewn: SewnCloth, gait: Gait, clip: Clip
 ) -> Iterator[State]:
     """The cape's state at each frame, in the figure's own frame."""
-    wind = Wind((0.0, 0.0, -gait.speed - parameters.wind), seed=parameters.seed, period=LOOP)
+    ahead = gait.speed + parameters.wind
+    wind = looped_wind(ahead, parameters.seed, (0.0, 0.0, -1.0), gusts=0.4)
     return worn_states(sewn, gait, clip, wind, settle=SETTLING)

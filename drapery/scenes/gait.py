@@ -21,8 +21,6 @@ from drapery.style.horse import HORSE_PARTS
 
 MAX_WALK = 10.0
 """The fastest walk [m/s]."""
-LOOP = 4.0
-"""In this time a walk makes a whole number of strides and passes a whole number of blocks [s]."""
 LEG, HALF_FOOT = 12 * TEXEL, 2 * TEXEL
 """Length of a leg, and half the length of its foot [m]."""
 ARM_SHARE = 0.6
@@ -73,6 +71,10 @@ class Gait:
         """
         sine, cosine = _sine_cosine(self.turn(times))
         return LEG * cosine + HALF_FOOT * abs(sine) - LEG
+
+    def raised(self, time: float) -> Array:
+        """How far what moves with the hips is from its place at rest [m], shape [3]."""
+        return np.array([0, self.lift(time), 0])
 
     def colliders(self, names: tuple[str, ...]) -> tuple[Collider, ...]:
         """The figure's parts of these names as moving boxes."""

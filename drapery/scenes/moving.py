@@ -21,6 +21,11 @@ from drapery.cloth import (
 from drapery.mesh import Array
 from drapery.scenes.catalogue import Clip
 
+LOOP = 4.0
+"""The wind of the scenes repeats after this time [s], in which a walk makes a whole number of
+strides and passes a whole number of blocks: a picture of it has no seam."""
+ASIDE = (0.35, 0.0, 0.94)
+"""Where it blows to: to the front and a little to the right."""
 GRAVITY = (Gravity(),)
 """The forces of `motion` unless others are given."""
 STEP = 1.0 / 120.0
@@ -55,6 +60,26 @@ def motion(
             moving = moving.advance(acting, steps, pins)
         if frame >= 0:
             yield moving.state
+
+
+def looped_wind(
+    speed: float,
+    seed: int,
+    along: tuple[float, float, float] = ASIDE,
+    *,
+    gusts: float = 0.5,
+    gust_size: float = Wind.gust_size,
+) -> Wind:
+    """A wind that repeats after LOOP.
+
+    speed: its mean [m/s].
+    seed, gusts, gust_size: as in `Wind`.
+    along: where it blows to, a unit vector.
+    Raises OptionError.
+    """
+    x, y, z = along
+    velocity = (speed * x, speed * y, speed * z)
+    return Wind(velocity, gusts=gusts, gust_size=gust_size, seed=seed, period=LOOP)
 
 
 def in_wind(cloth: Cloth, wind: Wind) -> tuple[Force, ...]:

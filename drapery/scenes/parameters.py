@@ -41,6 +41,11 @@ def wind_parameter(default: float, help: str = "Mean speed of the wind") -> Any:
     return parameter(default, help, (0, MAX_WIND), "m/s")
 
 
+def drag_parameter(default: float) -> Any:
+    """The drag of the air [1/s]."""
+    return parameter(default, "Drag of the air", (0, MAX_DRAG), "1/s")
+
+
 def thickness_parameter(default: float = 1.0) -> Any:
     """The thickness of a cloth in texels."""
     return parameter(default, "Thickness of the cloth", (0, 8), "texels")

@@ -1,18 +1,15 @@
 """A scarf of woollen squares: its two long thin tails stream behind a walking figure."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-import numpy as np
-
-from drapery.banner import DYES
-from drapery.banner.sprites import tint
-from drapery.cloth import State, Wind
+from drapery.cloth import State
 from drapery.garments import SewnCloth
-from drapery.packs import Packs, open_packs
-from drapery.render import Material, Model, Scene, Texels, TextureLayer
+from drapery.packs import open_packs
+from drapery.render import Model, Scene
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.gait import LOOP, MAX_WALK, Gait
+from drapery.scenes.gait import MAX_WALK, Gait
+from drapery.scenes.moving import looped_wind
 from drapery.scenes.parameters import (
     SceneParameters,
     parameter,
@@ -21,13 +18,16 @@ from drapery.scenes.parameters import (
     wind_parameter,
 )
 from drapery.scenes.stroll import cloths_of, walk_scenes, worn_states
-from drapery.style import make_shell
+from drapery.scenes.variants import in_material
+from drapery.style import SheetMapping
 from drapery.style.boxes import ModelBox, box_mesh, upright
 from drapery.style.figure import SKINS, TEXEL
+from drapery.style.tailoring import block_texels, squares
 
 SQUARE = 4 * TEXEL
 """Edge of a square [m]: the width of the scarf. Each square shows the texture of one block."""
-COLLAR = ModelBox((-4.5, -25.5, -4.5), (9, 2.5, 9), (0, 0))
+COLLAR, COLLAR_SHEET = ModelBox((-4.5, -25.5, -4.5), (9, 2.5, 9), (0, 0)), (48, 16)
+"""The collar, and the size of its unfolded texture of three squares [texels]."""
 
 
 @dataclass(frozen=True)
@@ -47,19 +47,15 @@ class ScarfParameters(SceneParameters):
 def play(parameters: ScarfParameters, clip: Clip) -> Iterator[Scene]:
     """Seen from behind; the collar is stiff, the tails are cloth."""
     packs, gait = open_packs(()), Gait(parameters.speed)
-    squares = [_texels(name, packs) for name in parameters.blocks.split()] or [
-        _texels("red", packs)
-    ]
-    box = upright(box_mesh(COLLAR, (36, 16)), TEXEL, (0, 0, 0))
+    woven = [block_texels(name, packs) for name in parameters.blocks.split() or ["red"]]
     worn = []
     for sewn in tails(parameters):
-        (piece,) = sewn.pieces
-        shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs)
-        drawn = replace(piece, shell=shell, material=_material(squares, sewn))
-        states = tail_states(parameters, sewn, gait, clip)
-        worn.append((replace(sewn, pieces=(drawn,)), states))
-    collar = (Model(box, (_collar_material(squares),)),)
-    return walk_scenes(parameters.skin, gait, clip, worn, tail=1.3, lifted=collar)
+        column = squares(woven, 1, round(sewn.pieces[0].size[1] / SQUARE))
+        drawn = in_material(sewn, column, SheetMapping())
+        worn.append((drawn, tail_states(parameters, sewn, gait, clip)))
+    box = upright(box_mesh(COLLAR, COLLAR_SHEET), TEXEL, (0, 0, 0))
+    collar = Model(box, (squares([woven[0][:16, :16]], 3, 1),))
+    return walk_scenes(parameters.skin, gait, clip, worn, tail=1.3, lifted=(collar,))
 
 
 def tails(parameters: ScarfParameters) -> tuple[SewnCloth, ...]:
@@ -72,26 +68,5 @@ def tail_states(
 ) -> Iterator[State]:
     """One tail at each frame, in the figure's own frame."""
     speed = gait.speed + parameters.wind
-    wind = Wind((0.0, 0.0, -speed), gusts=0.35, gust_size=1.0, seed=parameters.seed, period=LOOP)
+    wind = looped_wind(speed, parameters.seed, (0.0, 0.0, -1.0), gusts=0.35, gust_size=1.0)
     return worn_states(sewn, gait, clip, wind)
-
-
-def _texels(name: str, packs: Packs) -> Texels:
-    """A block's texture, or wool of a dye."""
-    if name in DYES:
-        return tint(packs.texture("block/white_wool"), DYES[name].rgb)
-    return packs.texture(f"block/{name}")
-
-
-def _material(squares: list[Texels], sewn: SewnCloth) -> Material:
-    """Squares below one another, as many as the tail is long; the given ones repeat."""
-    length = sewn.pieces[0].size
-    count = 1 if length is None else round(length[1] / SQUARE)
-    column = [squares[place % len(squares)] for place in range(count)]
-    return Material((TextureLayer(np.ascontiguousarray(np.vstack(column))),))
-
-
-def _collar_material(squares: list[Texels]) -> Material:
-    """The unfolded collar, 36 x 16 texels, from the first square."""
-    wool = np.tile(squares[0][:16, :16], (1, 3, 1))
-    return Material((TextureLayer(np.ascontiguousarray(wool[:, :36])),))

@@ -1,39 +1,26 @@
 """A skirt moved by walking legs: a thick ring with few bend points, pinned at the waist."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-import numpy as np
-
-from drapery.banner import DYE_NAMES, DYES
-from drapery.banner.sprites import tint
-from drapery.cloth import State, Wind
-from drapery.errors import OptionError
+from drapery.banner import DYE_NAMES
+from drapery.cloth import State
 from drapery.garments import SewnCloth
-from drapery.packs import Packs, open_packs
-from drapery.render import Material, Scene, Texels, TextureLayer
+from drapery.packs import open_packs
+from drapery.render import Scene
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.gait import LOOP, MAX_WALK, Gait
+from drapery.scenes.gait import MAX_WALK, Gait
+from drapery.scenes.moving import looped_wind
 from drapery.scenes.parameters import (
     SceneParameters,
     parameter,
     seed_parameter,
     thickness_parameter,
 )
+from drapery.scenes.pleats import SIDES_ON_TEXTURE, pleated
 from drapery.scenes.stroll import BEFORE, cloths_of, walk_scenes, worn_states
-from drapery.style import BoxMapping, make_shell
+from drapery.scenes.variants import in_material
 from drapery.style.figure import SKINS
-
-SIDES = ("outside", "inside", "hem")
-SIDES_OF_CLOTH = BoxMapping(
-    front_rect=(0.0, 0.0, 0.5, 1.0),
-    back_rect=(0.5, 0.0, 1.0, 1.0),
-    left=(0.0, 0.9, 0.1, 1.0),
-    right=(0.0, 0.9, 0.1, 1.0),
-    top=(0.0, 0.0, 0.5, 0.1),
-    bottom=(0.0, 0.9, 0.5, 1.0),
-)
-"""The outside is on the left half of the texture, the lining on the right."""
 
 
 @dataclass(frozen=True)
@@ -55,10 +42,10 @@ class SkirtParameters(SceneParameters):
 def play(parameters: SkirtParameters, clip: Clip) -> Iterator[Scene]:
     """Seen from the front."""
     gait, sewn = Gait(parameters.speed), skirt_cloth(parameters)
-    piece = sewn.pieces[0]
-    shell = make_shell(piece.shell.sheet, piece.shell.sheet_uvs, SIDES_OF_CLOTH, piece.shell.grid)
-    drawn = replace(piece, shell=shell, material=skirt_material(parameters, open_packs(())))
-    worn = [(replace(sewn, pieces=(drawn,)), skirt_states(parameters, sewn, gait, clip))]
+    dyes = parameters.dye, parameters.lining, parameters.trim
+    wool = pleated(open_packs(()), dyes, parameters.sides)
+    drawn = in_material(sewn, wool, SIDES_ON_TEXTURE)
+    worn = [(drawn, skirt_states(parameters, sewn, gait, clip))]
     return walk_scenes(parameters.skin, gait, clip, worn, view=BEFORE, tail=0.6)
 
 
@@ -72,30 +59,5 @@ def skirt_states(
     parameters: SkirtParameters, sewn: SewnCloth, gait: Gait, clip: Clip
 ) -> Iterator[State]:
     """The skirt at each frame, in the figure's own frame."""
-    wind = Wind((0.0, 0.0, -gait.speed), gusts=0.3, seed=parameters.seed, period=LOOP)
+    wind = looped_wind(gait.speed, parameters.seed, (0.0, 0.0, -1.0), gusts=0.3)
     return worn_states(sewn, gait, clip, wind, order=3)
-
-
-def skirt_material(parameters: SkirtParameters, packs: Packs) -> Material:
-    """Pleats outside, a plain lining inside, a band of trim at the hem. Raises OptionError."""
-    named = parameters.sides.split()
-    for side in named:
-        if side not in SIDES:
-            raise OptionError(f"side {side!r} is not known; use some of: {' '.join(SIDES)}")
-    wool = np.tile(packs.texture("block/white_wool")[:16, :16], (1, 6, 1))[:, :96]
-    outside, inside = (_dyed(wool, dye) for dye in (parameters.dye, parameters.lining))
-    # The last column of every eight texels is darker, like the edge of a pleat.
-    outside[:, np.arange(96) % 8 == 7, :3] = outside[:, np.arange(96) % 8 == 7, :3] // 5 * 4
-    outside[-2:], inside[-2:] = _dyed(wool, parameters.trim)[-2:], outside[-2:]
-    outside[..., 3] = 255 * ("outside" in named)
-    inside[..., 3] = 255 * ("inside" in named)
-    outside[-2:, :, 3] = 255 * ("hem" in named or "outside" in named)
-    return Material(
-        (TextureLayer(np.ascontiguousarray(np.concatenate([outside, inside], axis=1))),), "cutout"
-    )
-
-
-def _dyed(wool: Texels, dye: str) -> Texels:
-    if dye not in DYES:
-        raise OptionError(f"dye {dye!r} is not known; use one of: {', '.join(DYES)}")
-    return tint(wool, DYES[dye].rgb)

@@ -6,14 +6,16 @@ from functools import lru_cache
 import numpy as np
 
 from drapery.cloth import Collisions, State, Wind
-from drapery.garments import SewnCloth, find_garment, tailor
+from drapery.garments import SewnCloth, tailor
 from drapery.packs import Packs, open_packs
 from drapery.render import Camera, Material, Model, Scene, View, frame_points
+from drapery.scenes.backdrop import Backdrop
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.gait import LOOP, Gait
-from drapery.scenes.moving import in_wind, motion
+from drapery.scenes.gait import Gait
+from drapery.scenes.moving import LOOP, in_wind, motion
+from drapery.scenes.variants import varied
 from drapery.style.figure import PARTS, figure_material, figure_mesh
-from drapery.style.scenery import SKY, moved, path_ground, shadow
+from drapery.style.scenery import moved, path_ground, shadow
 
 BEHIND = View(azimuth=214, elevation=14, fov=26)
 BEFORE = View(azimuth=32, elevation=12, fov=26)
@@ -32,12 +34,8 @@ def cloths_of(
 
     thickness: [texels]. points: of its pieces. resolution: texels to a block.
     """
-    garment = find_garment(name)
-    pieces = garment.piece
-    if points is not None:
-        pieces = tuple(each.model_copy(update={"points": points}) for each in pieces)
-    own = {"piece": pieces, "thickness": thickness, "resolution": resolution}
-    made = garment.model_copy(update=own)
+    piece = None if points is None else {"points": points}
+    made = varied(name, piece=piece, thickness=thickness, resolution=resolution)
     return tailor(made, open_packs(()))
 
 
@@ -70,14 +68,14 @@ def walk_scenes(
     lifted: models that move with its body."""
     packs = open_packs(())
     material, causeway = figure_material(skin, packs), ground(packs)
-    seen = camera(clip.size, view, tail)
+    backdrop = Backdrop(camera(clip.size, view, tail), clip.size)
     for states in zip(*(states for _, states in worn), strict=True):
         time = states[0].time
         models = [*walker(gait, time, material, causeway)]
-        models += moved(lifted, np.array([0, gait.lift(time), 0]))
+        models += moved(lifted, gait.raised(time))
         for (sewn, _), state in zip(worn, states, strict=True):
             models += sewn.models(state.positions[0])
-        yield Scene(tuple(models), seen, clip.size, background=SKY, samples=4)
+        yield backdrop.scene(models)
 
 
 def walker(

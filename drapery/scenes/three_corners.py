@@ -9,4 +9,4 @@ from drapery.scenes.corners import CornersParameters, show
 
 def play(parameters: CornersParameters, clip: Clip) -> Iterator[Scene]:
     """From the moment of its release."""
-    return show("three-corners", parameters, clip)
+    return show(parameters, clip, ("top-left", "top-right", "bottom-left"))

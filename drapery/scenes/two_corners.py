@@ -8,5 +8,6 @@ from drapery.scenes.corners import CornersParameters, show
 
 
 def play(parameters: CornersParameters, clip: Clip) -> Iterator[Scene]:
-    """From the moment of its release."""
-    return show("corners", parameters, clip)
+    """From the moment of its release. Its first row is over the middle of the ground, so that it
+    has room to swing."""
+    return show(parameters, clip, ("top-left", "top-right"), back=0.0)

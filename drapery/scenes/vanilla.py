@@ -6,36 +6,27 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.banner import DYE_NAMES
-from drapery.cloth import Gravity, Wind
-from drapery.mesh import Array
 from drapery.packs import Packs, open_packs
-from drapery.render import Scene, View, frame_points
-from drapery.scenes import cape
-from drapery.scenes.banners import (
-    BannerBlock,
-    flag_cloth,
-    flag_materials,
-    flag_models,
-    flag_shell,
-    flags_at_rest,
-    wood_model,
-)
+from drapery.render import Scene, View
+from drapery.scenes.backdrop import Backdrop, framing
+from drapery.scenes.banners import BannerBlock, banner_ground, hang_flags
+from drapery.scenes.cape import CapeParameters, cape_cloth, cape_states
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.gait import LOOP, MAX_WALK, Gait
-from drapery.scenes.moving import motion
+from drapery.scenes.gait import MAX_WALK, Gait
+from drapery.scenes.moving import LOOP, looped_wind
 from drapery.scenes.parameters import SceneParameters, parameter, seed_parameter, wind_parameter
 from drapery.scenes.picture_grid import PictureGrid, panel_size
 from drapery.scenes.stroll import camera, ground, walker
 from drapery.style.block import stiff_flag
-from drapery.style.block_world import blocks, plateau
 from drapery.style.board import moved
 from drapery.style.figure import figure_material
-from drapery.style.scenery import SKY, shadow
 from drapery.style.sway import cape_lean, stiff_cape, sway_phase
 from drapery.style.tailoring import ClothModel
 
 BLOCK = BannerBlock((-0.5, 0, -0.5))
 SIDE_ON = View(azimuth=38, elevation=10, fov=26)
+FRAMED = [(x, y, z) for x in (-0.9, 0.9) for y, z in ((-0.5, 0.9), (1.95, 0), (0, -0.9))]
+"""The banner and the ground below it [m]."""
 
 
 @dataclass(frozen=True)
@@ -56,59 +47,30 @@ class VanillaParameters(SceneParameters):
 
 def play(parameters: VanillaParameters, clip: Clip) -> Iterator[PictureGrid]:
     """Banners above, capes below; those of the game on the left."""
-    packs = open_packs(())
-    rows = (_banners(parameters, packs, clip), _capes(parameters, packs, clip))
+    rows = (side(parameters, open_packs(()), clip) for side in (_banners, _capes))
     for above, below in zip(*rows, strict=True):
         yield PictureGrid((*above, *below), ("the game's", "as cloth", "the game's", "as cloth"))
 
 
-def _banners(
-    parameters: VanillaParameters, packs: Packs, clip: Clip
-) -> Iterator[tuple[Scene, Scene]]:
+def _banners(p: VanillaParameters, packs: Packs, clip: Clip) -> Iterator[list[Scene]]:
     size = panel_size(clip.size, 2, 2)
-    still = (*blocks(plateau(2, 2), packs), shadow((0, 0), 0.42), wood_model((BLOCK,), packs))
-    cloth, materials = flag_cloth((5, 9)), flag_materials((parameters.design,), packs)
-    shell = flag_shell(cloth)
-    camera = frame_points(SIDE_ON, _framed_points(), size[0] / size[1], margin=0.06)
-    velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
-    forces = (Gravity(), Wind(velocity, gusts=0.5, seed=parameters.seed, period=LOOP))
-    start = flags_at_rest(cloth, (BLOCK,))
-    states = motion(cloth, clip, forces=forces, start=start, settle=2 * LOOP, step=1 / 60)
-    for frame, state in enumerate(states):
-        board = stiff_flag("standing", sway_phase(parameters.block, frame / clip.fps))
-        stiff = ClothModel(moved(board, np.array(BLOCK.cell)), materials)
-        soft = flag_models(shell, state, materials)
-        left, right = (
-            Scene((*still, flag), camera, size, background=SKY, samples=4) for flag in (stiff, soft)
-        )
-        yield left, right
+    backdrop = framing(SIDE_ON, FRAMED, size, banner_ground((BLOCK,), (2, 2), packs), margin=0.06)
+    flag = hang_flags((BLOCK,), (5, 9), (p.design,), packs)
+    for frame, state in enumerate(flag.motion(clip, looped_wind(p.wind, p.seed), settle=2 * LOOP)):
+        board = stiff_flag("standing", sway_phase(p.block, frame / clip.fps))
+        stiff = ClothModel(moved(board, np.array(BLOCK.cell)), flag.materials)
+        yield [backdrop.scene([each]) for each in (stiff, flag.model(state))]
 
 
-def _capes(
-    parameters: VanillaParameters, packs: Packs, clip: Clip
-) -> Iterator[tuple[Scene, Scene]]:
+def _capes(p: VanillaParameters, packs: Packs, clip: Clip) -> Iterator[list[Scene]]:
+    own = CapeParameters(dye=p.dye, speed=p.speed, seed=p.seed)
+    gait, sewn = Gait(p.speed), cape_cloth(own)
+    skin, causeway = figure_material(own.skin, packs), ground(packs)
     size = panel_size(clip.size, 2, 2)
-    cape_parameters = cape.CapeParameters(
-        dye=parameters.dye, speed=parameters.speed, seed=parameters.seed
-    )
-    gait, sewn = Gait(parameters.speed), cape.cape_cloth(cape_parameters)
-    wool = sewn.pieces[0].material
-    skin, causeway = figure_material(cape_parameters.skin, packs), ground(packs)
-    view = camera(size)
-    for frame, state in enumerate(cape.cape_states(cape_parameters, sewn, gait, clip)):
-        stiff = ClothModel(stiff_cape(cape_lean(parameters.speed, frame / clip.fps)), (wool,))
-        lifted = moved(stiff.mesh, np.array([0, gait.lift(state.time), 0]))
-        (soft,) = sewn.models(state.positions[0])
+    backdrop = Backdrop(camera(size), size)
+    for frame, state in enumerate(cape_states(own, sewn, gait, clip)):
+        board = moved(stiff_cape(cape_lean(p.speed, frame / clip.fps)), gait.raised(state.time))
+        stiff = ClothModel(board, (sewn.pieces[0].material,))
         figure = walker(gait, state.time, skin, causeway)
-        left, right = (
-            Scene((*figure, back), view, size, background=SKY, samples=4)
-            for back in (ClothModel(lifted, stiff.materials), soft)
-        )
-        yield left, right
-
-
-def _framed_points() -> Array:
-    """What the camera frames: the banner and the ground below it [m]."""
-    return np.array(
-        [[x, y, z] for x in (-0.9, 0.9) for y, z in ((-0.5, 0.9), (1.95, 0), (0, -0.9))]
-    )
+        capes = (stiff, *sewn.models(state.positions[0]))
+        yield [backdrop.scene((*figure, each)) for each in capes]

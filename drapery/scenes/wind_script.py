@@ -9,13 +9,27 @@ A command is a time [s], a word and its number. `#` begins a comment.
 """
 
 import math
-from collections.abc import Iterator
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from drapery.cloth import Wind
+from drapery.elementary import sine_of_turns
 from drapery.errors import OptionError
 from drapery.user_files import read_user_file
 
 MAX_BYTES = 1 << 16
+SAMPLE = """
+0.0 strength 7
+1.3 direction 55
+2.2 off
+2.8 direction -35
+2.8 strength 9
+2.8 on
+"""
+"""The script of a scene unless another is given."""
 LIMITS = {"strength": (0.0, 40.0), "direction": (-3600.0, 3600.0)}
 
 
@@ -33,9 +47,20 @@ class WindSetting:
         """The speed of the wind [m/s]; 0 while it is off."""
         return self.strength if self.on else 0.0
 
+    def wind(self, gusts: float, seed: int) -> Wind:
+        """The wind from this time on; gusts, seed: as in `Wind`."""
+        turns = self.direction / 360
+        along = np.array([sine_of_turns(turns), 0.0, sine_of_turns(turns + 0.25)]) * self.speed
+        return Wind((along[0], 0.0, along[2]), gusts=gusts, seed=seed)
+
 
 def read_script(path: str) -> tuple[WindSetting, ...]:
-    """The settings of a file, in order. Raises OptionError that names the line."""
+    """The settings of a file, in order; of SAMPLE if the path is empty.
+
+    Raises OptionError that names the line.
+    """
+    if not path:
+        return tuple(parse_script(SAMPLE))
     name, remedy = f"script {path}", "give a file of commands"
     data = read_user_file(path, MAX_BYTES, name=name, remedy=remedy)
     try:
@@ -56,6 +81,11 @@ def parse_script(text: str, name: str = "script") -> Iterator[WindSetting]:
         if words:
             now = _after(now, words, f"{name}, line {number}")
             yield now
+
+
+def setting_at(settings: Sequence[WindSetting], time: float) -> WindSetting:
+    """The last setting at a time [s]. settings: in order, the first at time 0."""
+    return settings[bisect_right([setting.time - 1e-9 for setting in settings], time) - 1]
 
 
 def _after(now: WindSetting, words: list[str], place: str) -> WindSetting:

@@ -2,15 +2,15 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain
 
 import numpy as np
 
-from drapery.cloth import Cloth, Gravity, State, Wind
-from drapery.render import Scene, View, frame_points
-from drapery.scenes.banners import flag_cloth
+from drapery.cloth import Gravity
+from drapery.render import Scene, View
+from drapery.scenes.backdrop import framing
+from drapery.scenes.banners import FLAG_STEP, flag_cloth
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.moving import motion, placed
+from drapery.scenes.moving import LOOP, looped_wind, motion, placed
 from drapery.scenes.parameters import (
     SceneParameters,
     grid_parameter,
@@ -18,14 +18,15 @@ from drapery.scenes.parameters import (
     seed_parameter,
     wind_parameter,
 )
-from drapery.scenes.wires import DAYLIGHT, PAPER, paper, wired
+from drapery.scenes.wires import on_paper, paper, wired
 from drapery.style import FLAG_SIZE
 
-LOOP = 4.0
 SIDE_ON = View(azimuth=30, elevation=4, fov=26)
 FILL = paper((236, 233, 224))
-SPACING = 1.1
-"""From one banner to the next [m]."""
+PLACES = ((0.0, 0.0, 0.0), (1.1, 0.0, 0.0))
+"""Of the middles of their top edges [m]."""
+FRAMED = [[x, y, z] for x in (-0.45, 1.56) for y in (0.06, -FLAG_SIZE[1]) for z in (0, 0.6)]
+"""Both flags in the wind [m]."""
 
 
 @dataclass(frozen=True)
@@ -43,25 +44,20 @@ class WireframeParameters(SceneParameters):
 
 def play(parameters: WireframeParameters, clip: Clip) -> Iterator[Scene]:
     """Two flags beside each other."""
-    shapes = (parameters.left, parameters.right)
+    p, wind = parameters, looped_wind(parameters.wind, parameters.seed, gust_size=1.0)
     cloths = [
-        placed(flag_cloth(shape), np.array([SPACING * place, 0, 0]))
-        for place, shape in enumerate(shapes)
+        placed(flag_cloth(shape), np.array(at))
+        for shape, at in zip((p.left, p.right), PLACES, strict=True)
     ]
-    motions = [_waving(parameters, cloth, clip) for cloth in cloths]
-    room = np.array(
-        [[x, y, z] for x in (-0.45, 1.56) for y in (0.06, -FLAG_SIZE[1]) for z in (0, 0.6)]
-    )
-    camera = frame_points(SIDE_ON, room, clip.size[0] / clip.size[1], margin=0.04)
+    settle = 2 * LOOP
+    motions = [
+        motion(cloth, clip, forces=(Gravity(), wind), settle=settle, step=FLAG_STEP)
+        for cloth in cloths
+    ]
+    backdrop = on_paper(framing(SIDE_ON, FRAMED, clip.size, margin=0.04))
     for states in zip(*motions, strict=True):
-        models = chain.from_iterable(
-            wired(cloth, state.positions[0], camera, clip.size[1], FILL, parameters.springs)
+        yield backdrop.scene(
+            model
             for cloth, state in zip(cloths, states, strict=True)
+            for model in wired(cloth, state.positions[0], backdrop, FILL, p.springs)
         )
-        yield Scene(tuple(models), camera, clip.size, DAYLIGHT, PAPER, samples=4)
-
-
-def _waving(parameters: WireframeParameters, cloth: Cloth, clip: Clip) -> Iterator[State]:
-    velocity = (0.35 * parameters.wind, 0.0, 0.94 * parameters.wind)
-    wind = Wind(velocity, gusts=0.5, gust_size=1.0, seed=parameters.seed, period=LOOP)
-    return motion(cloth, clip, forces=(Gravity(), wind), settle=2 * LOOP, step=1 / 60)

@@ -1,11 +1,12 @@
 """Cloth drawn as its grid: pale faces, edges and pins."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from drapery.cloth import Cloth
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render import (
-    Camera,
     Light,
     Material,
     Model,
@@ -14,6 +15,7 @@ from drapery.render import (
     pins_model,
     springs_model,
 )
+from drapery.scenes.backdrop import Backdrop
 
 PAPER = (246, 246, 244, 255)
 DAYLIGHT = Light(((0.4, 0.9, 0.7), (-0.6, 0.3, 0.4)), 0.62, 0.4)
@@ -27,19 +29,25 @@ def paper(colour: tuple[int, int, int]) -> Material:
     return Material((TextureLayer(np.array([[[*colour, 255]]], np.uint8)),))
 
 
+def on_paper(backdrop: Backdrop) -> Backdrop:
+    """The backdrop as a sheet of paper in daylight."""
+    return replace(backdrop, light=DAYLIGHT, background=PAPER)
+
+
 def wired(
     cloth: Cloth,
     positions: Array,
-    camera: Camera,
-    height: int,
+    backdrop: Backdrop,
     material: Material | None = None,
     springs: bool = False,
 ) -> tuple[Model, ...]:
     """A cloth's edges and pins as lines and dots, and its faces in a material if one is given.
 
-    positions: [m], shape [N, 3]. height: of the picture [pixels]. springs: whether all springs are
-    drawn, coloured by kind, in place of the edges.
+    positions: [m], shape [N, 3].
+    backdrop: of the picture.
+    springs: whether all springs are drawn, coloured by kind, in place of the edges.
     """
+    camera, height = backdrop.camera, backdrop.size[1]
     normals = vertex_normals(positions, cloth.triangles)
     sheet = Mesh(positions, normals, cloth.triangles, cloth.uvs)
     lines = (

@@ -1,11 +1,13 @@
 """Thick, textured cloth of any shape."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from drapery.banner.dyes import DYES
+from drapery.banner.packs import Packs
 from drapery.banner.sprites import tint
 from drapery.errors import OptionError
 from drapery.mesh import Array
@@ -49,8 +51,27 @@ def dyed(texels: Texels, dye: str) -> Material:
     return Material((TextureLayer(texels, DYES[dye].rgb),))
 
 
+def dyed_texels(texels: Texels, dye: str) -> Texels:
+    """Light texels multiplied with a dye. Raises OptionError."""
+    return tint(texels, dyed(texels, dye).layers[0].tint)
+
+
+def block_texels(name: str, packs: Packs) -> Texels:
+    """The texels of a block; the name of a dye is its wool. Raises PackError."""
+    if name in DYES:
+        return dyed_texels(packs.texture("block/white_wool"), name)
+    return packs.texture(f"block/{name}")
+
+
+def squares(texels: Sequence[Texels], columns: int, rows: int) -> Material:
+    """A material of squares, row by row; the given ones repeat."""
+    each = [texels[number % len(texels)] for number in range(columns * rows)]
+    lines = [np.hstack(each[row * columns : (row + 1) * columns]) for row in range(rows)]
+    return Material((TextureLayer(np.ascontiguousarray(np.vstack(lines))),))
+
+
 def checked(texels: Texels, dyes: tuple[str, str], count: int = 4) -> Material:
     """A chequered material of two dyes, `count` squares to a side. Raises OptionError."""
-    pieces = [tint(texels, dyed(texels, dye).layers[0].tint) for dye in dyes]
+    pieces = [dyed_texels(texels, dye) for dye in dyes]
     rows = [np.hstack([pieces[(r + c) % 2] for c in range(count)]) for r in range(count)]
     return Material((TextureLayer(np.ascontiguousarray(np.vstack(rows))),))

@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
-from drapery.cloth import Gravity, SolverDesbrun, Wind, max_stretch
-from drapery.scenes import banner, flag, fold, hall, stress
-from drapery.scenes.banners import BannerBlock, flag_cloth, flags_at_rest
+from drapery.cloth import SolverDesbrun, max_stretch
+from drapery.packs import open_packs
+from drapery.scenes import banner, flag, fold, hall, rainbow, stress
+from drapery.scenes.banners import BannerBlock, flag_cloth, hang_flags
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.moving import motion
+from drapery.scenes.misprint import SolverMisprinted
+from drapery.scenes.moving import looped_wind
 from drapery.style.block import FLAG_SIZE, sway_angle
 from drapery.style.sway import cape_lean, stiff_cape, sway_phase
 
@@ -18,9 +20,9 @@ SHORT = Clip((64, 64), 6, 20.0)
 @pytest.mark.parametrize("placement", ["standing", "wall"])
 def test_a_flag_hangs_from_its_bar(placement, facing) -> None:
     banner_blocks = [BannerBlock((3, 0, -2), placement, facing)]
-    cloth = flag_cloth((3, 5))
-    rest = flags_at_rest(cloth, banner_blocks).positions[0]
-    state = list(motion(cloth, SHORT, start=flags_at_rest(cloth, banner_blocks), step=1 / 60))[-1]
+    flags = hang_flags(banner_blocks, (3, 5), ("white",), open_packs(()))
+    rest = flags.start.positions[0]
+    state = list(flags.motion(SHORT))[-1]
     np.testing.assert_allclose(state.positions[0, :3], rest[:3], atol=1e-12)
     lower = state.positions[0, 3:].reshape(4, 3, 3)
     assert (np.diff(lower[..., 1], axis=0) < 0).all()
@@ -28,25 +30,20 @@ def test_a_flag_hangs_from_its_bar(placement, facing) -> None:
 
 
 def test_banners_wave_and_stretch_little() -> None:
-    cloth, clip = flag_cloth((5, 9)), Clip((64, 64), 60, 20.0)
-    wind = Wind((1.75, 0, 4.7), gusts=0.5, period=banner.LOOP)
-    start = flags_at_rest(cloth, banner.BLOCKS)
-    states = motion(cloth, clip, forces=(Gravity(), wind), start=start, settle=2, step=1 / 60)
+    flags = hang_flags(banner.BLOCKS, (5, 9), ("white",), open_packs(()))
+    states = flags.motion(Clip((64, 64), 60, 20.0), looped_wind(5.0, 0), settle=2)
     positions = np.stack([state.positions for state in states])
-    assert max_stretch(positions, cloth) < 0.06
+    assert max_stretch(positions, flags.cloth) < 0.06
     assert (np.ptp(positions[:, :, -1], axis=0).max(axis=-1) > 0.01).all()
-    assert (positions[:, :, -1, 2].mean(axis=0) > start.positions[:, -1, 2]).all()
+    assert (positions[:, :, -1, 2].mean(axis=0) > flags.start.positions[:, -1, 2]).all()
 
 
 def test_the_cube_holds_4913_banners_in_rows() -> None:
     places = stress.places_of(stress.StressParameters())
     assert places.shape == (4913, 3)
     assert len(np.unique(places, axis=0)) == 4913
-    material_index = stress.material_numbers(17)
-    assert (
-        material_index.min() == 0
-        and material_index.max() == len(stress.RAINBOW) * stress.VARIANTS - 1
-    )
+    numbers = rainbow.numbers_in_cube(17)
+    assert set(numbers) == set(range(len(rainbow.rainbow_banners(1, 0))))
 
 
 def test_every_banner_of_the_cube_moves_by_itself() -> None:
@@ -58,16 +55,16 @@ def test_every_banner_of_the_cube_moves_by_itself() -> None:
 
 
 def test_the_gust_runs_down_the_hall_and_through_no_wall() -> None:
-    cloth = flag_cloth((5, 9))
+    flags = hang_flags(hall.BLOCKS, (5, 9), ("white",), open_packs(()))
     parameters, clip = hall.HallParameters(), Clip((64, 64), 60, 20.0)
-    states = list(hall.flag_states(parameters, cloth, clip))
+    states = list(hall.flag_states(parameters, flags, clip))
     assert len(states[0].positions) == 32
     off = np.stack([abs(s.positions[:, -1, 0] - s.positions[:, 0, 0]) for s in states])
     peak = off.argmax(axis=0) / clip.fps
     near, middle = peak[:4].mean(), peak[16:20].mean()
     assert 16 / 11 * 0.7 < middle - near < 16 / 11 * 1.4  # 16 m at 11 m/s
     assert max(abs(s.positions[..., 0]).max() for s in states) < hall.WIDTH / 2
-    assert max_stretch(np.stack([s.positions for s in states]), cloth) < 0.15
+    assert max_stretch(np.stack([s.positions for s in states]), flags.cloth) < 0.15
 
 
 def test_a_flag_streams_down_the_wind_from_its_pole() -> None:
@@ -84,12 +81,12 @@ def test_a_flag_streams_down_the_wind_from_its_pole() -> None:
 def test_the_printed_sign_folds_a_banner_and_the_right_one_does_not() -> None:
     cloth, clip = flag_cloth((5, 9)), Clip((64, 64), 60, 20.0)
     fallen = {}
-    for solver in (fold.SolverMisprinted(), SolverDesbrun()):
+    for solver in (SolverMisprinted(), SolverDesbrun()):
         *_, last = fold.flag_states(fold.FoldParameters(wind=0.5), cloth, solver, clip)
         edges = np.ptp(last.positions[0].reshape(9, 5, 3)[1:, :, 0], axis=1)
         fallen[type(solver)] = edges.min() / FLAG_SIZE[0]
     assert fallen[SolverDesbrun] > 0.9
-    assert fallen[fold.SolverMisprinted] < 0.2
+    assert fallen[SolverMisprinted] < 0.2
 
 
 def test_the_sway_is_the_games() -> None:

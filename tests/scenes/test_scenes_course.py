@@ -12,11 +12,15 @@ from drapery.scenes.catalogue import Clip
 from drapery.scenes.wind_script import parse_script, read_script
 
 LONG = Clip((64, 64), 100, 20.0)
+FOUR = (("corners",),)
+THREE = (("top-left", "top-right", "bottom-left"),)
+TWO = (("top-left", "top-right"), 0.0)
+"""Where the cloth is held, and z of its first row [m]."""
 
 
 def swung(pins, **words):
     parameters = corners.CornersParameters(**words)
-    cloth = corners.level_cloth(pins, parameters).cloth
+    cloth = corners.level_cloth(parameters, *pins).cloth
     return cloth, list(corners.cloth_states(cloth, parameters, LONG))
 
 
@@ -35,7 +39,7 @@ def energy(cloth, state) -> float:
 
 
 def test_four_corners_sag_into_a_hammock_and_rest() -> None:
-    cloth, states = swung("four-corners", drag=3.0)
+    cloth, states = swung(FOUR, drag=3.0)
     assert abs(states[-1].positions - states[-2].positions).max() < 5e-4  # no jitter at rest
     last = states[-1].positions[0].reshape(10, 10, 3)
     assert last[4:6, 4:6, 1].max() < last[[0, 0, 9, 9], [4, 5, 4, 5], 1].min()
@@ -45,7 +49,7 @@ def test_four_corners_sag_into_a_hammock_and_rest() -> None:
 
 
 def test_the_free_one_of_four_corners_is_lowest() -> None:
-    _, states = swung("three-corners", drag=3.0)
+    _, states = swung(THREE, drag=3.0)
     last = states[-1].positions[0]
     assert last[:, 1].argmin() == 99
     assert last[99, 1] < corners.HEIGHT - 0.9
@@ -53,7 +57,7 @@ def test_the_free_one_of_four_corners_is_lowest() -> None:
 
 @pytest.mark.parametrize("shape", [(10, 10), (16, 16)])
 def test_two_corners_swing_like_a_curtain_and_lose_energy(shape) -> None:
-    cloth, states = swung("corners", grid=shape)
+    cloth, states = swung(TWO, grid=shape)
     middle = np.array([state.positions[0, :, 2].mean() for state in states])
     turns = np.flatnonzero(np.diff(np.sign(middle)))
     assert len(turns) >= 3  # it swings through several times
