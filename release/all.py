@@ -5,6 +5,7 @@ In a checkout without changes it writes, with the same bytes on every run with t
     python/           the source archive and the wheel; with --platform TAG also that of this one
     npm/              the package of the element
     blender/          the add-on of one file
+    conda/            the recipe for conda, which takes the source archive in python/
     site.tar.gz       the designer, and the docs with live cloth
     drapery.cdx.json  the dependencies in the versions of constraints.txt, as CycloneDX
     SHA256SUMS        the checksums of these files, for `sha256sum --check`
@@ -28,6 +29,12 @@ from release import build, npm, site
 
 SUMS = "SHA256SUMS"
 ADD_ON = build.ROOT / "release" / "blender" / "drapery_banners.py"
+RECIPE = build.ROOT / "release" / "conda" / "recipe.yaml"
+CHECKOUT = """source:
+  path: ../..
+  use_gitignore: true
+"""
+"""What the recipe takes in a checkout."""
 
 
 def build_all(out: Path, platform: str | None) -> None:
@@ -49,6 +56,9 @@ def build_all(out: Path, platform: str | None) -> None:
     npm.build(out / "npm")
     (out / "blender").mkdir()
     shutil.copy(ADD_ON, out / "blender")
+    (out / "conda").mkdir()
+    (archive,) = (out / "python").glob("*.tar.gz")
+    (out / "conda" / RECIPE.name).write_text(recipe(archive), "utf-8", newline="\n")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         site.build(folder / "site")
@@ -56,6 +66,17 @@ def build_all(out: Path, platform: str | None) -> None:
         (wheel,) = (out / "python").glob("*-none-any.whl")
         (out / "drapery.cdx.json").write_bytes(components(wheel, folder / "env"))
     (out / SUMS).write_text(sums(out), "utf-8", newline="\n")
+
+
+def recipe(archive: Path) -> str:
+    """The recipe for conda that takes this source archive, by its checksum."""
+    text = RECIPE.read_text("utf-8").replace(
+        "--recipe release/conda`, in a checkout", "--recipe conda`"
+    )
+    if CHECKOUT not in text:
+        raise SystemExit(f"{RECIPE} takes no checkout")
+    source = f"source:\n  path: ../python/{archive.name}\n  sha256: {digest(archive)}\n"
+    return text.replace(CHECKOUT, source)
 
 
 def components(wheel: Path, folder: Path) -> bytes:
@@ -72,10 +93,12 @@ def components(wheel: Path, folder: Path) -> bytes:
 def sums(folder: Path) -> str:
     """A line for each file of a folder: its SHA-256 and its path, in the order of the paths."""
     paths = sorted(path for path in folder.rglob("*") if path.is_file() and path.name != SUMS)
-    return "".join(
-        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(folder).as_posix()}\n"
-        for path in paths
-    )
+    return "".join(f"{digest(path)}  {path.relative_to(folder).as_posix()}\n" for path in paths)
+
+
+def digest(path: Path) -> str:
+    """The SHA-256 of a file in hexadecimal digits."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def differing(first: str, second: str) -> list[str]:
