@@ -24,7 +24,7 @@ from drapery import Settings
 from drapery.web.designer_page import write_designer
 from drapery.web.wasm.module import is_module_built
 
-LATER = ("-still.bin", "wall.bin", ".d.ts")
+LATER = ("-still.bin", "-fabrics.bin", "wall.bin", "shield.bin", ".d.ts")
 """The endings of files that a page loads only when they are wanted, or never."""
 READY = "return !!document.querySelector('drapery-designer')?.shadowRoot?.querySelector('.app')"
 EDIT = """

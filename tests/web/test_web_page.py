@@ -50,6 +50,7 @@ def test_the_bundle_is_one_module_that_imports_nothing(tmp_path: Path) -> None:
 def test_no_two_modules_of_the_designer_share_a_name() -> None:
     text = bundled_module(DESIGNER_ENTRY, DESIGNER_PUBLIC)
     names = re.findall(r"^(?:async )?(?:function|class|const|let) (\w+)", text, re.M)
+    assert "</script" not in text, "a page may hold it"
     assert len(set(names)) == len(names) and not re.search(r"^import |^\s*/\*\*.*\*/$", text, re.M)
 
 

@@ -534,7 +534,7 @@ export class DraperyDesigner extends Element {
     const attributes = Object.entries(this.#attributes()).filter(([, value]) => value !== null).map(([name, value]) => ` ${name}="${value}"`);
     const own = import.meta.url ?? ""; // in a bundle, the module of somebody's site or a file of its maker
     const source = /^https?:.*\/drapery-designer\.js$/.test(own) ? own : "drapery-designer.js";
-    return `<script type="module" src="${source}"></script>\n<drapery-banner${attributes.join("")}></drapery-banner>`;
+    return `<script type="module" src="${source}"></${"script"}>\n<drapery-banner${attributes.join("")}></drapery-banner>`;
   }
 
   async #copy(/** @type {string} */ text, /** @type {string} */ what) {
