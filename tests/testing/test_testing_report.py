@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import subprocess
 from pathlib import Path
 from shutil import copytree
 
@@ -112,12 +113,16 @@ def test_pytest_writes_the_page_where_it_is_told(pytester: pytest.Pytester) -> N
     assert not (pytester.path / "out/report.html").exists()
 
 
-def test_the_action_and_the_hook_call_commands_that_exist() -> None:
+def test_the_action_and_the_hook_call_commands_that_exist(tmp_path: Path) -> None:
     action = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
     scripts = [step["run"] for step in action["runs"]["steps"] if "run" in step]
-    assert scripts == ['"$ACTION/release/check_goldens.sh"']
+    assert scripts[0] == '"$ACTION/release/check_goldens.sh"'
     assert all("${{" not in script for script in scripts), "inputs must come by the environment"
     if os.name == "posix":
+        summary = tmp_path / "summary.md"
+        told = os.environ | {"URL": "https://host/1", "GITHUB_STEP_SUMMARY": str(summary)}
+        subprocess.run(["bash", "-ec", *scripts[1:]], env=told, check=True)
+        assert summary.read_text() == "\n[Pictures: index.html in the report](https://host/1)\n"
         assert (ROOT / "release/check_goldens.sh").stat().st_mode & 0o111
     (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
     assert hook["entry"] == "drapery golden check" and hook["args"] == ["cases.toml"]
