@@ -174,3 +174,13 @@ def test_shields_have_sheets_of_their_own(tmp_path: Path) -> None:
     charged = composite(shield_layers(Banner("red", (Layer("creeper", "lime"),)), packs))
     assert (charged == (DYES["lime"].rgb[0], 0, 0, 255)).all(), charged[0, 0]
     assert (composite(shield_layers(None, packs)) == (70, 80, 90, 255)).all()
+
+
+def test_stacks_share_the_texels_of_our_own_art_which_nobody_can_change() -> None:
+    one, other = open_packs(()), open_packs(())
+    for sheets in (
+        (one.base_sheet(), other.base_sheet()),
+        (one.sheet("creeper"), other.sheet("creeper")),
+    ):
+        assert np.shares_memory(*sheets)
+        assert not any(sheet.flags.writeable for sheet in sheets)

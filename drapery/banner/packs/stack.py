@@ -7,6 +7,7 @@ earlier ones. The overlays of a pack, named in its `pack.mcmeta`, override its o
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Literal
 
@@ -357,6 +358,8 @@ class Packs:
     def _decoded(self, found: PackFile) -> Texels:
         """The texels of a file. Notes its wrong checksums. Raises PackError."""
         place = self.place(found)
+        if isinstance(self.packs[found.level].source, OwnArt):
+            return _own_texels(found.data, place)
         texels = read_png(found.data, place)
         wrong = wrong_checksums(found.data, place)
         if wrong:
@@ -490,6 +493,15 @@ def _voters(pack: Pack, kind: Kind) -> Iterator[Texels]:
 
 PackLike = str | Path | PackSource | Pack | Packs
 """A path, a MemoryPack or other source of files, an opened pack, or an opened stack."""
+
+
+@lru_cache(maxsize=128)
+def _own_texels(data: bytes, place: str) -> Texels:
+    """The texels of a file of our own art, which each stack has: those of a picture are decoded
+    once a process."""
+    texels = read_png(data, place)
+    texels.flags.writeable = False
+    return texels
 
 
 def open_packs(packs: PackLike | Sequence[PackLike] = (), *, format: int | None = None) -> Packs:
