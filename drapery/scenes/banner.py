@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from drapery.packs import open_packs
 from drapery.render import Scene, View
 from drapery.scenes.backdrop import framing
-from drapery.scenes.banners import BannerBlock, banner_ground, hang_flags
+from drapery.scenes.banners import BannerBlock, banner_ground, hang_flags, meeting
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import LOOP, looped_wind
 from drapery.scenes.parameters import (
@@ -20,6 +20,8 @@ from drapery.scenes.parameters import (
 
 FRONT = View(azimuth=20, elevation=9, fov=28)
 BLOCKS = (BannerBlock((-1.8, 0, -0.5)), BannerBlock((-0.5, 0, -0.5)), BannerBlock((0.8, 0, -0.5)))
+SETTLING = 3 * LOOP
+"""After this time the motion of flags that meet nearly repeats with the wind [s]."""
 FRAMED = (
     *((x, y, z) for x in (-2, 2) for y, z in ((-1, 1), (0, -1), (1.95, -0.5), (1.95, 0.5))),
     (2.6, 1.0, 1.3),
@@ -49,7 +51,7 @@ class BannerParameters(SceneParameters):
 
 
 def play(parameters: BannerParameters, clip: Clip) -> Iterator[Scene]:
-    """Three banners on a piece of ground. Their grids differ, so each is simulated alone."""
+    """Three banners on a piece of ground, whose flags pass through nothing."""
     p, packs = parameters, open_packs(())
     designs, shapes = (p.left, p.middle, p.right), (p.left_grid, p.middle_grid, p.right_grid)
     ground = banner_ground(BLOCKS, (4, 2), packs)
@@ -59,8 +61,7 @@ def play(parameters: BannerParameters, clip: Clip) -> Iterator[Scene]:
         for block, shape, design in zip(BLOCKS, shapes, designs, strict=True)
     ]
     wind = looped_wind(p.wind, p.seed)
-    motions = [flag.motion(clip, wind, settle=2 * LOOP) for flag in flags]
-    for states in zip(*motions, strict=True):
+    for states in meeting(flags, BLOCKS, clip, wind, thickness=p.thickness, settle=SETTLING):
         yield backdrop.scene(
             flag.model(state, p.thickness) for flag, state in zip(flags, states, strict=True)
         )

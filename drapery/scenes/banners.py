@@ -1,19 +1,19 @@
 """Banner blocks in a scene: their flags, simulated as one batch in the scene's own space."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from drapery.banner import Banner
-from drapery.cloth import Cloth, Collisions, Force, Gravity, State, grid
+from drapery.cloth import Box, Cloth, Collider, Collisions, Force, Gravity, State, grid, sew
 from drapery.mesh import Mesh
 from drapery.packs import Packs
 from drapery.render import Material, Model
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.moving import motion
 from drapery.style import FLAG_MAPPING, FLAG_SIZE, Shell, flag_material, make_shell, turn
-from drapery.style.block import SCALE, Placement, flag_origin, wood
+from drapery.style.block import SCALE, Placement, flag_origin, solids, wood
 from drapery.style.block_world import blocks, plateau
 from drapery.style.board import moved
 from drapery.style.layers import wood_material
@@ -21,6 +21,8 @@ from drapery.style.scenery import shadow
 from drapery.style.sheet import Sheet
 from drapery.style.tailoring import ClothModel
 
+THINNEST = 1e-4
+"""Flags that meet keep at least this distance [m]."""
 FLAG_STEP = 1.0 / 60.0
 """The longest time step of a flag [s]."""
 
@@ -80,6 +82,39 @@ class Flags:
         return ClothModel(sheets.mesh(), self.materials, index, sheets)
 
 
+def meeting(
+    flags: Sequence[Flags],
+    banner_blocks: Sequence[BannerBlock],
+    clip: Clip,
+    *forces: Force,
+    thickness: float,
+    settle: float = 0.0,
+) -> Iterator[list[State]]:
+    """Flags of one banner each, which meet each other and the poles: all states at every frame.
+
+    banner_blocks: those that stand on the ground and have poles.
+    forces: beside the weight of the flags.
+    thickness: of the flags [texels].
+    settle: time before the first frame [s].
+    Raises OptionError.
+    """
+    placed = [replace(each.cloth, rest_positions=each.start.positions[0]) for each in flags]
+    ends = np.cumsum([len(cloth.inv_mass) for cloth in placed])[:-1]
+    thick = max(thickness * SCALE, THINNEST)
+    met = Collisions(_poles(banner_blocks), thick, apart=thick)
+    states = motion(
+        sew(placed),
+        clip,
+        forces=(Gravity(), *forces),
+        collisions=met,
+        settle=settle,
+        step=FLAG_STEP,
+    )
+    for state in states:
+        parts = [np.split(each, ends, axis=1) for each in (state.positions, state.velocities)]
+        yield [State(places, moves, state.time) for places, moves in zip(*parts, strict=True)]
+
+
 def hang_flags(
     banner_blocks: Sequence[BannerBlock],
     shape: tuple[int, int],
@@ -132,6 +167,15 @@ def wood_model(banner_blocks: Sequence[BannerBlock], packs: Packs) -> Model:
 def design_materials(designs: Sequence[str], packs: Packs) -> tuple[Material, ...]:
     """The materials of flags of these designs. Raises FormatError or PackError."""
     return tuple(flag_material(Banner.parse(design), packs) for design in designs)
+
+
+def _poles(banner_blocks: Sequence[BannerBlock]) -> list[Collider]:
+    pole, *_ = solids("standing")
+    low, high = np.array(pole.low), np.array(pole.high)
+    return [
+        Collider(Box((low + high) / 2 + np.array(block.cell), high - low))
+        for block in banner_blocks
+    ]
 
 
 def _sheet(cloth: Cloth, block: BannerBlock) -> Mesh:

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from drapery.cloth import SolverDesbrun, max_stretch
+from drapery.cloth import Cloth, SolverDesbrun, max_stretch
+from drapery.mesh import Array
 from drapery.packs import open_packs
 from drapery.scenes import banner, flag, fold, hall, rainbow, stress
-from drapery.scenes.banners import BannerBlock, flag_cloth, hang_flags
+from drapery.scenes.banners import BannerBlock, flag_cloth, hang_flags, meeting
 from drapery.scenes.catalogue import Clip
 from drapery.scenes.misprint import SolverMisprinted
-from drapery.scenes.moving import looped_wind
+from drapery.scenes.moving import LOOP, looped_wind
 from drapery.style.block import FLAG_SIZE, sway_angle
 from drapery.style.sway import cape_lean, stiff_cape, sway_phase
 
@@ -36,6 +37,38 @@ def test_banners_wave_and_stretch_little() -> None:
     assert max_stretch(positions, flags.cloth) < 0.06
     assert (np.ptp(positions[:, :, -1], axis=0).max(axis=-1) > 0.01).all()
     assert (positions[:, :, -1, 2].mean(axis=0) > flags.start.positions[:, -1, 2]).all()
+
+
+def crossings(one: Cloth, places: Array, other: Cloth, others: Array) -> int:
+    """How many springs of one cloth pass through a face of another."""
+    start, end = (places[one.spring_pairs[:, side], None] for side in (0, 1))
+    a, b, c = (others[other.triangles[:, corner]] for corner in (0, 1, 2))
+
+    def volume(p: Array, q: Array, r: Array, s: Array) -> Array:
+        return np.sum(np.cross(q - p, r - p) * (s - p), axis=-1)
+
+    sides = np.sign([volume(start, end, *pair) for pair in ((a, b), (b, c), (c, a))])
+    apart = volume(a, b, c, start) * volume(a, b, c, end) < 0
+    return int((apart & (abs(sides.sum(axis=0)) == 3)).sum())
+
+
+def test_the_flags_of_the_scene_pass_through_nothing() -> None:
+    packs, shapes, clip = open_packs(()), ((3, 5), (5, 9), (7, 13)), Clip((64, 64), 80, 20.0)
+    flags = [
+        hang_flags((block,), shape, ("white",), packs)
+        for block, shape in zip(banner.BLOCKS, shapes, strict=True)
+    ]
+    wind = looped_wind(5.0, 0)
+    apart = zip(*(flag.motion(clip, wind, settle=2 * LOOP) for flag in flags), strict=True)
+    met = meeting(flags, banner.BLOCKS, clip, wind, thickness=1.0, settle=2 * LOOP)
+    left, middle, right = (flag.cloth for flag in flags)
+    found = {"apart": 0, "met": 0}
+    for name, motion in (("apart", apart), ("met", met)):
+        for states in motion:
+            x, y, z = (state.positions[0] for state in states)
+            found[name] += crossings(left, x, middle, y) + crossings(middle, y, left, x)
+            found[name] += crossings(middle, y, right, z) + crossings(right, z, middle, y)
+    assert found["apart"] > 0 and found["met"] == 0
 
 
 def test_the_cube_holds_4913_banners_in_rows() -> None:
