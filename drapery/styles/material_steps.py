@@ -115,8 +115,7 @@ def flatten(material: Material) -> Material:
     if not is_dyed(material):
         return material
     texels, _ = _enlarged(material, 1)
-    flat = _bytes(_mixed_dyes(_charges(material, texels)))
-    return _sheet(material, np.concatenate([flat, texels[..., 3:]], axis=-1))
+    return _sheet(material, _coloured(texels, _mixed_dyes(_charges(material, texels))))
 
 
 @costs(4)
@@ -157,8 +156,7 @@ def hatch(
         for mark in _HATCHING[NAMES[number]]:
             np.maximum(drawn, _lines(mark, spacing, width * share), out=drawn)
     blank, black = np.array(rgb_of(paper), float), np.array(rgb_of(ink), float)
-    colours = _bytes(blank + drawn[..., None] * (black - blank))
-    return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
+    return _sheet(material, _coloured(texels, blank + drawn[..., None] * (black - blank)))
 
 
 @costs(24)
@@ -225,9 +223,7 @@ def age(
     share = dirt * np.clip(stains * 2.6 - 1.1, 0, 1)[..., None]
     mixed = worn + share * (np.array([66, 52, 36]) - worn)
     grain = 0.92 + 0.16 * _noise(shape, seed + 1)
-    return _sheet(
-        material, np.concatenate([_bytes(mixed * grain[..., None]), texels[..., 3:]], axis=-1)
-    )
+    return _sheet(material, _coloured(texels, mixed * grain[..., None]))
 
 
 @costs(4)
@@ -246,8 +242,7 @@ def parchment(
     fibres = 0.97 + 0.06 * _blurred(_noise(shape, seed + 1), (1, 0))
     inked = 1 - ink * (1 - texels[..., :3] / 255)
     light = (1 - stains * np.clip(clouds * 2 - 0.7, 0, 1)) * fibres
-    colours = _bytes(skin * inked * light[..., None])
-    return _sheet(material, np.concatenate([colours, texels[..., 3:]], axis=-1))
+    return _sheet(material, _coloured(texels, skin * inked * light[..., None]))
 
 
 FIELD = 5
@@ -382,9 +377,10 @@ def _vivid(colours: Array, times: float) -> Array:
 
 
 def _shaded(texels: Texels, light: Array) -> Texels:
-    return np.concatenate([_bytes(texels[..., :3] * light[..., None]), texels[..., 3:]], axis=-1)
+    return _coloured(texels, texels[..., :3] * light[..., None])
 
 
-def _bytes(colours: Array) -> Texels:
-    clipped: Texels = np.clip(np.rint(colours), 0, 255).astype(np.uint8)
-    return clipped
+def _coloured(texels: Texels, colours: Array) -> Texels:
+    """The texels in other colours [0..255], as transparent as they were."""
+    clipped = np.clip(np.rint(colours), 0, 255).astype(np.uint8)
+    return np.concatenate([clipped, texels[..., 3:]], axis=-1)
