@@ -42,7 +42,8 @@ class FileFormat:
     max_side: the largest width and height [px]; 0 for no limit of the format.
     max_fps: the most frames/s.
     extra: the extra that its writer needs.
-    writer: the function below `drapery.render` that writes it.
+    writer: the function below `drapery.render` that writes it, such as `encode.tiff.write_tiff`: of
+        the path, the frames, their rate (None for a still) and the matte; `quality` where lossy.
     reader: Pillow's name of it, for pictures that are read.
     about: what files hold, in a few words.
     """

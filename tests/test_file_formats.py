@@ -170,7 +170,7 @@ def check_file(path: str, format: FileFormat, kind: Kind) -> None:
 COMMANDS: dict[str, tuple[tuple[Any, ...], tuple[Kind, ...]]] = {
     "render": (("white", *LOOK), ("still",)),
     "animate": (("white", *LOOK, *LOOP), ("loop",)),
-    "model": (("white", *LOOP), ("model",)),
+    "model": (("white",), ("model",)),
     "garment": (("pennon", *SIZE), ("still", "loop", "model")),
     "player": ((*LOOK,), ("still", "loop")),
     "scene": (("flag", "--size", f"{SIDE}x{SIDE}", *LOOP), ("still", "loop")),
@@ -185,11 +185,28 @@ def test_each_command_that_draws_writes_each_format(
     words, kinds = COMMANDS[command]
     for format in formats_of(*kinds):
         kind = format.kind() if len(kinds) > 1 else kinds[0]
-        timed = LOOP if kind in ("loop", "model") and LOOP[0] not in words else ()
+        timed = LOOP if (kind == "loop" or format.moving) and LOOP[0] not in words else ()
         target = f"{tmp_path}/{command}{format.endings[-1]}"
         code, _, err = drapery(command, *words, *timed, "-o", target)
         assert code == 0, (target, err)
         check_file(target, format, kind)
+
+
+@pytest.mark.parametrize("words", [("garment", "flag"), ("player",), ("model", "red")])
+def test_the_length_and_rate_of_a_loop_are_refused_where_there_is_none(
+    words: tuple[str, ...], tmp_path: Path, drapery: Run
+) -> None:
+    fixed = [each for each in formats_of("model") if not each.moving]
+    stills = formats_of("still") if words[0] != "model" else ()
+    for format in (*fixed, *(each for each in stills if each.kind() == "still")):
+        for option in ("seconds", "fps"):
+            target = f"{tmp_path}/a{format.ending}"
+            code, _, err = drapery(*words, f"--{option}", 2, "-o", target)
+            assert code == 2 and f"{target}: {option} does nothing for" in err, (format.name, err)
+    if words[0] == "model":
+        code, _, err = drapery(*words, "--seconds", 0, "--fps", 5, "-o", tmp_path / "a.glb")
+        assert code == 2 and "fps does nothing for one pose" in err
+    assert not list(tmp_path.iterdir())
 
 
 def test_faces_sheets_and_comparisons_are_written_in_each_format_of_pictures(

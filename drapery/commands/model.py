@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from drapery.commands import options as o
+from drapery.commands.garment import check_given
 from drapery.commands.notices import compile_notice
 from drapery.file_formats import endings_of
 
@@ -25,6 +26,7 @@ OriginOption = Annotated[
 
 @o.pictured("model")
 def run(
+    context: typer.Context,
     out: OutOption,
     seconds: Annotated[float, typer.Option(help="Length of the loop; 0 for one pose.")] = 4.0,
     fps: o.FpsOption = 20.0,
@@ -33,7 +35,11 @@ def run(
 ) -> None:
     """Write a banner, shield, cape or elytra as a 3-D file: a waving GLB, or one pose."""
     from drapery import save_model
+    from drapery.errors import OptionError
 
+    check_given(context, out)
+    if not seconds and o.is_given(context, "fps"):
+        raise OptionError(f"{out}: fps does nothing for one pose; leave it out, or seconds 0")
     settings = o.settings_of(words)
     with compile_notice():
         save_model(o.design_of(words), out, settings, seconds=seconds, fps=fps, origin=origin)
