@@ -21,7 +21,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-MAX_WHEEL = 1_570_000
+MAX_WHEEL = 1_580_000
 """The most bytes of a wheel, see `size_of_sources`; its modules alone take 1 MB."""
 LEFT_OUT = ("drapery/web/", "drapery/aot/kernels-")
 NOT_SOURCES = {
