@@ -19,6 +19,9 @@ DESIGNER = os.environ.get("DRAPERY_DESIGNER")
 """The address of the designer from the first page, which `release.site` gives."""
 DESIGNER_GUIDE = "[the designer](guides/web.md#the-designer)"
 """What the first page says where there is no designer beside the docs."""
+PACKAGES_GUIDE = "[this site has the package](reference/extras.md#from-a-site)"
+PACKAGES = "../packages/index.html"
+"""What `release.packages` writes beside the docs, from the first page."""
 PYTHON_NAMES = re.compile(r"<!-- begin: python ([\w.]+) -->\n(?s:.*?)<!-- end: python \1 -->")
 """What a checkout shows of a module; mkdocstrings shows more."""
 pages: dict[str, tuple[str, str]] = {}
@@ -56,6 +59,7 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
     text = text.replace("<!-- live gallery -->", _live_gallery())
     if page.is_homepage and DESIGNER:
         text = text.replace(DESIGNER_GUIDE, f'<a href="{DESIGNER}">the designer</a>')
+        text = text.replace(PACKAGES_GUIDE, f'<a href="{PACKAGES}">this site has the package</a>')
     text = re.sub(r"\[([^]]+)\]\((?:\.\./)+(?!docs/)([\w./-]+)\)", _outside(page, config), text)
     pages[page.file.src_uri] = page.title, text
     return text

@@ -6,7 +6,7 @@ In a checkout without changes it writes, with the same bytes on every run with t
     npm/              the package of the element
     blender/          the add-on of one file
     conda/            the recipe for conda, which takes the source archive in python/
-    site.tar.gz       the designer, and the docs with live cloth
+    site.tar.gz       the designer, the docs with live cloth, and the files above but the recipe
     drapery.cdx.json  the dependencies in the versions of constraints.txt, as CycloneDX
     SHA256SUMS        the checksums of these files, for `sha256sum --check`
 
@@ -17,7 +17,6 @@ In a checkout without changes it writes, with the same bytes on every run with t
 import argparse
 import hashlib
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -25,10 +24,9 @@ import venv
 from collections.abc import Sequence
 from pathlib import Path
 
-from release import build, npm, site
+from release import build, packages, site
 
 SUMS = "SHA256SUMS"
-ADD_ON = build.ROOT / "release" / "blender" / "drapery_banners.py"
 RECIPE = build.ROOT / "release" / "conda" / "recipe.yaml"
 CHECKOUT = """source:
   path: ../..
@@ -49,19 +47,16 @@ def build_all(out: Path, platform: str | None) -> None:
     if changes:
         raise SystemExit(f"the checkout has changes; commit them first:\n{changes}")
     run("drapery.web.wasm.build")
-    build.build(out / "python", None)
     if platform:
         run("release.kernels")
-        build.build(out / "python", platform)
-    npm.build(out / "npm")
-    (out / "blender").mkdir()
-    shutil.copy(ADD_ON, out / "blender")
+    packages.make(out, platform)
+    files = list(out.glob("*/*"))
     (out / "conda").mkdir()
     (archive,) = (out / "python").glob("*.tar.gz")
     (out / "conda" / RECIPE.name).write_text(recipe(archive), "utf-8", newline="\n")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        site.build(folder / "site")
+        site.build(folder / "site", files)
         (out / "site.tar.gz").write_bytes(build.packed(folder / "site", "site"))
         (wheel,) = (out / "python").glob("*-none-any.whl")
         (out / "drapery.cdx.json").write_bytes(components(wheel, folder / "env"))

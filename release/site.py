@@ -1,21 +1,22 @@
 """Build the site: `python -m release.site [-o site]`.
 
-The designer is at its root and the docs, with live cloth, in `docs/`; each leads to the other. All
-links are relative, so the site works under any path. The kernels that pages play must have been
-compiled before: `python -m drapery.web.wasm.build`.
+The designer is at its root, the docs, with live cloth, in `docs/`, and what can be installed in
+`packages/`; each leads to the others. All links are relative, so the site works under any path. The
+kernels that pages play must have been compiled before: `python -m drapery.web.wasm.build`.
 """
 
 import argparse
 import os
 import subprocess
 import sys
+import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
 from drapery import Settings
 from drapery.web.designer_page import PAGE, write_designer
 from drapery.web.page import SIZE
-from drapery.web.wasm.module import module_places
+from release import packages
 from release.build import ROOT, epoch
 
 DOCS = "docs"
@@ -26,6 +27,7 @@ LINKS = {
     "docs/guides/web.html": "Put it on a page",
     "docs/guides/index.html": "Guides",
     "docs/reference/live-gallery.html": "Live gallery",
+    f"{packages.FOLDER}/index.html": "Install",
 }
 STYLE = """nav {
   display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 0.25rem 1.25rem;
@@ -38,22 +40,23 @@ drapery-designer { min-block-size: calc(100vh - 2rem) !important; }
 """
 
 
-def build(out: Path) -> None:
-    """Write the site into a folder. Raises SystemExit without the kernels, and CalledProcessError
-    where the docs have a fault."""
-    if not module_places()[0].is_file():
-        raise SystemExit("there are no kernels; run python -m drapery.web.wasm.build first")
+def build(out: Path, files: Sequence[Path]) -> None:
+    """Write the site into a folder, with files that can be installed.
+
+    Raises CalledProcessError where the docs have a fault.
+    """
     words = ("build", "--strict", "--quiet", "-f", "mkdocs.yml", "-d", (out / DOCS).resolve())
     env = os.environ | {"DRAPERY_DESIGNER": DESIGNER, "SOURCE_DATE_EPOCH": str(epoch())}
     command = [sys.executable, "-m", "properdocs", *words]
     subprocess.run(command, cwd=ROOT, env=env, check=True, stdout=sys.stderr)
+    packages.publish(files, out)
     write_designer(out, Settings(size=SIZE))
     page = out / PAGE
     page.write_text(linked(page.read_text("utf-8")), "utf-8", newline="\n")
 
 
 def linked(page: str) -> str:
-    """The designer's page with links to the docs above it."""
+    """The designer's page with links to the docs and packages above it."""
     links = "".join(f'<a href="{target}">{title}</a>' for target, title in LINKS.items())
     page = page.replace("</style>\n", STYLE, 1)
     return page.replace("<body>\n", f'<body>\n<nav aria-label="Site">{links}</nav>\n', 1)
@@ -63,7 +66,10 @@ def main(words: Sequence[str] | None = None) -> None:
     """The command."""
     parser = argparse.ArgumentParser("python -m release.site", description=__doc__)
     parser.add_argument("-o", "--out", type=Path, default=Path("site"))
-    build(parser.parse_args(words).out)
+    out = parser.parse_args(words).out
+    with tempfile.TemporaryDirectory() as name:
+        packages.make(Path(name), None)
+        build(out, list(Path(name).glob("*/*")))
 
 
 if __name__ == "__main__":
