@@ -1,19 +1,23 @@
 """Kernels are compiled by other processes while a command compiles its first one."""
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from typing import Any, get_args
+from uuid import uuid4
 
 import numpy as np
 import pytest
 
 from drapery.cloth import Collider, Collisions, Gravity, MovingCloth, Plane, grid, solver
+from drapery.cloth.solvers import driver
 from drapery.commands import notices
 from drapery.jit import called_next, compiled_beside, expected_call
+from drapery.jit_cache import kernel_cache_status
 from drapery.settings import SolverName
 
 KERNEL = """
@@ -70,15 +74,21 @@ def test_the_next_kernel_is_stored_for_the_types_of_its_call(start: Start, tmp_p
 
 
 def test_a_kernel_that_is_compiled_beside_is_awaited_and_not_compiled_again(
-    start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, untraced_processes: None
 ) -> None:
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
-    twice = import_module("beside_kernels").twice
-    twice.forget()
+    name = f"beside_{uuid4().hex}"  # which is not stored yet
+    (tmp_path / f"{name}.py").write_text(KERNEL)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    twice = import_module(name).twice
     with called_next(twice, (2.5,)):
         expected = expected_call()
     assert expected is not None
-    process = start()
+    paths = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
+    process = subprocess.Popen(
+        [sys.executable, "-m", "drapery.compile_beside"],
+        stdin=subprocess.PIPE,
+        env=os.environ | {"PYTHONPATH": paths},
+    )
     assert process.stdin is not None
     process.stdin.write(expected[1])
     process.stdin.flush()
@@ -90,6 +100,9 @@ def test_a_kernel_that_is_compiled_beside_is_awaited_and_not_compiled_again(
     monkeypatch.setattr("drapery.jit_codegen.compile_kernel", compile_again)
     assert twice(2.5) == 5.0
     process.stdin.close()
+    folder = kernel_cache_status().folder
+    assert folder is not None
+    shutil.rmtree(folder / expected[0])
 
 
 def test_it_ends_when_the_process_that_started_it_does(start: Start) -> None:
@@ -128,12 +141,12 @@ def test_whatever_a_step_compiles_first_the_kernel_of_its_solver_is_known(
     """The longest of all; compiled after what it calls by address, it doubles the time."""
     known = []
 
-    def address_of(*_: Any) -> int:
+    def address() -> int:
         known.append(expected_call())
         raise InterruptedError
 
-    for module in ("drapery.cloth.strain", "drapery.cloth.contact.lanes_contact"):
-        monkeypatch.setattr(import_module(module), "address_of", address_of)
+    for place in ("limit_address", "resolve_address"):
+        monkeypatch.setattr(driver, place, address)
     ground = Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])))
     met = Collisions([ground], 0.01)
     cloth = MovingCloth.begin(grid(4, 5, 1.0, 1.0), solver(name), collisions=met)

@@ -72,7 +72,7 @@ def run(
 
 def check_given(context: typer.Context, out: str) -> None:
     """Raise OptionError for an option that is given and that what `out` holds does not show: a
-    still picture, a page of live cloth, or a 3-D file of one pose."""
+    still picture, a page of live cloth, or a 3-D file of one pose, which has 0 seconds."""
     from drapery.errors import OptionError
     from drapery.file_formats import known_format
     from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS
@@ -84,7 +84,7 @@ def check_given(context: typer.Context, out: str) -> None:
         refusal = None
         if kind == "still" or kind == "page":
             refusal = option.refusal(output=kind)
-        elif format and kind == "model" and not format.moving:
+        elif format and kind == "model" and not format.moving and context.params[name]:
             refusal = f"{name} does nothing for {format.name}, which holds one pose; leave it out"
         if refusal is not None and o.is_given(context, name):
             raise OptionError(f"{out}: {refusal}")

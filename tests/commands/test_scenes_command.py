@@ -90,7 +90,7 @@ def test_the_gallery_shows_every_scene_that_it_drew(drapery, tmp_path) -> None:
 
 def test_a_gallery_refuses_an_unknown_format_and_a_file_as_folder(drapery, tmp_path) -> None:
     code, _, err = drapery("gallery", "-o", tmp_path / "g", "--as", "bmp")
-    assert code == 2 and "use one of: apng, webp, gif" in err
+    assert code == 2 and "use one of: apng, webp, avif, gif" in err
     assert not (tmp_path / "g").exists()
     (tmp_path / "file").write_text("")
     code, _, err = drapery("gallery", "julia", "-o", tmp_path / "file", "--seconds", "0.1")

@@ -41,7 +41,8 @@ COMMANDS = {
     **dict.fromkeys(STILLS, ("render", TEXT, *WORDS)),
     "face": ("flat", TEXT, "--scale", "5"),
     **dict.fromkeys(LOOPS, ("animate", TEXT, *TIMES, *WORDS)),
-    **dict.fromkeys(MODELS, ("model", TEXT, *TIMES, *WORDS[:4], "--view", "hero")),
+    **dict.fromkeys(MODELS, ("model", TEXT, *WORDS[:4], "--view", "hero")),
+    "glb": ("model", TEXT, *TIMES, *WORDS[:4], "--view", "hero"),
 }
 
 

@@ -138,7 +138,7 @@ def test_a_garment_shows_the_design_where_its_file_has_one(tmp_path: Path) -> No
 )
 def test_the_commands_have_these_options_and_no_others(names, command) -> None:
     other = {"ctx", "out", "design", "form", "number", "seconds", "fps", "matte", "scale", "back"}
-    other |= {"component", "designer", "gallery", "quality", "origin", "to"}
+    other |= {"component", "context", "designer", "gallery", "quality", "origin", "to"}
     if command is flat:
         other.add("kind")  # the design of a shield is one by itself
     taken = set(inspect.signature(command.run).parameters) - other
