@@ -27,20 +27,31 @@ def save_model(
     """Write a scene, or the scenes of a loop, as a 3-D file.
 
     fps: frames/s of a loop. origin: the place in the scene that is the file's origin [m].
-    Raises OptionError for an unknown ending, for scenes with different meshes and for a loop of
-    more poses than the format has, OutputError for a bad target; no partial file remains.
+    Raises OptionError for an unknown ending, for models without a scene, for scenes with
+    different meshes and for a loop of more poses than the format has, OutputError for a bad
+    target; no partial file remains.
     """
     path = Path(path)
     format = check_target(path, "model")
     check_fps(fps, format)
-    given = [scenes] if isinstance(scenes, Scene) else scenes
-    moments = (_shifted(scene, origin) for scene in given)
+    given = scenes if isinstance(scenes, Iterable) else [scenes]
+    moments = (_shifted(_checked(scene), origin) for scene in given)
     first = next(moments, None)
     if first is None:
         raise OptionError("there is no scene to write")
     # The later scenes of a loop are made only for a format that holds motion.
     parts = take_apart(chain([first], moments if format.moving else islice(moments, 0)))
     _write(path, writer_of(format)(parts, first, fps, path.name[: -len(format.ending)]))
+
+
+def _checked(scene: Scene) -> Scene:
+    """Refuse what is no scene. A file of several scenes is a loop, so models need one to be in."""
+    if not isinstance(scene, Scene):
+        raise OptionError(
+            f"save_model writes scenes, not a {type(scene).__name__}: put models into one by "
+            "`Scene((model,), camera)`"
+        )
+    return scene
 
 
 def _shifted(scene: Scene, origin: Vector) -> Scene:

@@ -221,6 +221,15 @@ def test_a_loop_of_too_many_poses_is_refused(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+def test_models_without_a_scene_are_refused(tmp_path: Path) -> None:
+    model, *_ = SCENES[0].models
+    wrong: Any
+    for wrong in ([model], [SCENES[0], model.mesh], model):
+        with pytest.raises(OptionError, match=r"writes scenes, .* `Scene\(\(model,\), camera\)`$"):
+            save_model(wrong, tmp_path / "a.glb")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_weights_do_not_grow_with_the_square_of_the_targets(tmp_path: Path) -> None:
     sizes = []
     for count in (60, 120, 240):
