@@ -39,6 +39,21 @@ def test_the_container_serves_where_its_check_asks() -> None:
     assert asked in {getattr(route, "path", "") for route in make_app(workers=1).routes}
 
 
+def test_the_container_copies_nothing_that_git_ignores() -> None:
+    """`COPY . .` would take the history, modules of npm and kernels of another processor."""
+    lines = (ROOT / ".dockerignore").read_text("utf-8").splitlines()
+    left_out = {line.removeprefix("**/") for line in lines if not line.startswith("#")}
+    ignored = (ROOT / ".gitignore").read_text("utf-8").split()
+    assert {".git", *(line.strip("/") for line in ignored)} <= left_out
+
+
+def test_docker_builds_without_the_option_of_podman() -> None:
+    """docker has no `--format`; podman keeps the health check only with it."""
+    page = (ROOT / "docs/guides/wikis-and-bots.md").read_text("utf-8")
+    built = re.findall(r"(?m)^(podman|docker) build (.*)-f release/Containerfile ", page)
+    assert built == [("podman", "--format docker "), ("docker", "")]
+
+
 def test_the_container_installs_extras_that_there_are() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     (extras,) = re.findall(r'"\.\[([\w,]+)\]"', FILE)
