@@ -2,6 +2,7 @@
 
 import re
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -22,8 +23,13 @@ GUIDES = (
 TESTED = ("blazon", "garments", "solvers")
 """Pages that tests of their own run."""
 ALL = sorted([*ROOT.glob("*.md"), *DOCS.glob("**/*.md"), *ROOT.glob("examples/**/*.md")])
-TYPED = ("drapery", "just", "npm", "npx", "pip", "properdocs", "pytest", "python", "rattler-build")
+TYPED = (
+    *("docker", "drapery", "just", "npm", "npx", "pip", "podman", "properdocs", "pytest", "python"),
+    *("rattler-build", "ruff"),
+)
 """What pages tell every reader to type."""
+OTHER = re.compile(r"&&|\\$|\$\(|^[^\"]*'")
+"""What cmd and PowerShell 5.1 do not know: `&&` and a backslash, and cmd single quotes."""
 PICTURES = {"banner.png": 0, "heart.png": 0, "difference.png": 0.02}
 """Those of the tutorial, and the share of their numbers that may differ: one has labels."""
 
@@ -108,22 +114,41 @@ def test_every_command_of_a_page_exists_with_its_options(page: Path) -> None:
                     check_command(line)
 
 
-def test_a_command_can_be_typed_in_any_shell() -> None:
-    """cmd and PowerShell 5.1 know neither `&&` nor a backslash; cmd knows no single quotes."""
-    other = re.compile(r"&&|\\$|\$\(|^\w+=|^[^\"]*'")
-    assert other.search("pip install . && pytest") and other.search("drapery web 'white'")
-    assert not other.search("drapery web \"{text:'white'}\"")
-    found = []
-    for page in ALL:
-        for block in blocks(page):
-            if block.language in SHELL and not block.title:
-                lines = [line.removeprefix("$ ") for line in block.text.splitlines()]
-                found += [
-                    f"{page.name}, line {block.line}: {line}"
-                    for line in lines
-                    if line.partition(" ")[0] in TYPED and other.search(line)
-                ]
+def typed_lines(page: Path) -> Iterator[str]:
+    """What a page gives to type: the lines of its blocks for a shell, and code in its text."""
+    for block in blocks(page):
+        if block.language in SHELL and not block.title:
+            yield from (line.removeprefix("$ ") for line in block.text.splitlines())
+    prose = re.sub(r"(?ms)^ *```.*?^ *```", "", page.read_text("utf-8"))
+    yield from (re.sub(r"\s+", " ", code) for code in re.findall(r"(?<!`)`([^`]+)`(?!`)", prose))
+
+
+def is_for_one_shell(line: str) -> bool:
+    """Whether a command, or options of one, cannot be typed in each of the three shells."""
+    if re.match(r"[A-Z_]+=\S+ +\w", line):
+        return True
+    return (line.partition(" ")[0] in TYPED or line.startswith("--")) and bool(OTHER.search(line))
+
+
+@pytest.mark.parametrize(
+    "page",
+    [*ALL, ROOT / ".github" / "pull_request_template.md"],
+    ids=lambda page: page.relative_to(ROOT).as_posix(),
+)
+def test_a_command_can_be_typed_in_any_shell(page: Path) -> None:
+    """A variable has a line for each shell; all else is the same in all."""
+    text = page.read_text("utf-8")
+    found = [line for line in typed_lines(page) if is_for_one_shell(line)]
+    for name in re.findall(r"(?m)(?:^|`)export (\w+)=", text):
+        if f'$env:{name} = "' not in text or f"set {name}=" not in text:
+            found.append(f"export {name}")
     assert found == []
+
+
+def test_what_one_shell_alone_knows_is_found() -> None:
+    wrong = ("pip install . && pytest", "drapery web 'white'", "A=1 pytest", "--left 'white cross'")
+    assert all(map(is_for_one_shell, wrong))
+    assert not any(map(is_for_one_shell, ("drapery web \"{text:'white'}\"", "don't", "a && b")))
 
 
 def test_a_block_has_the_note_before_it_and_its_title(tmp_path: Path) -> None:
