@@ -4,6 +4,7 @@
 test compares. NAME is one of `TABLES`, or `python MODULE` for the public names of a module.
 """
 
+import ast
 import re
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -22,6 +23,9 @@ from drapery.settings import LOOP_OPTIONS, OPTIONS
 ROOT = Path(__file__).resolve().parent.parent
 PART = re.compile(r"<!-- begin: (.+) -->\n(?s:.*?)<!-- end: \1 -->")
 ALPHA = {"full": "half too", "bit": "whole only", "none": "none"}
+QUOTES = '"""'
+SHORT = 15
+"""The most lines of an example that a page shows whole."""
 AUDIENCES = {"anyone": "yes", "local": "no", "python": "Python only"}
 
 
@@ -61,6 +65,17 @@ def _garments() -> str:
         f"## {path.stem}\n\n![{path.stem}](../pictures/garments/{path.stem}.png)\n\n"
         f"```toml\n{path.read_text(encoding='utf-8')}```\n"
         for path in sorted(folder.glob("*.toml"))
+    )
+
+
+def _examples() -> str:
+    """A section of each short program: what it says of itself, and its lines."""
+    texts = {path: path.read_text("utf-8") for path in sorted((ROOT / "examples").glob("*.py"))}
+    return "\n".join(
+        f"## {path.stem}\n\n{ast.get_docstring(ast.parse(text))}\n\n"
+        f'```python title="{path.name}"\n{text.split(QUOTES, 2)[2].strip()}\n```\n'
+        for path, text in texts.items()
+        if len([line for line in text.splitlines() if line.strip()]) <= SHORT
     )
 
 
@@ -144,6 +159,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "loop-options": lambda: _options(LOOP_OPTIONS),
     "player-options": lambda: _options(PLAYER_OPTIONS),
     "commands": commands,
+    "examples": _examples,
     "garments": _garments,
     "pack-formats": _pack_formats,
     "file-formats": _file_formats,

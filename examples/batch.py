@@ -8,4 +8,4 @@ if __name__ == "__main__":
         for dye in ("white", "yellow", "orange", "red")
     ]
     result = run_batch(rows, "pictures", workers=2)
-    print(f"{result.total} pictures asked for, {result.drawn} drawn, failed: {result.failed}")
+    print(f"{result.total} pictures, {result.drawn} drawn, failed: {result.failed}")

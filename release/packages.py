@@ -41,7 +41,7 @@ a {{ color: light-dark(#9c2f27, #e0796f); }}
 </head>
 <body>
 <h1>Install Drapery</h1>
-<p>With Python 3.11 or newer, where ADDRESS is that of this page's folder:</p>
+<p>With Python 3.11 or newer<span>, where ADDRESS is that of this page's folder</span>:</p>
 <pre><code>pip install --find-links ADDRESS drapery-mc</code></pre>
 <p>What it depends on comes from the package index. <a href="../docs/tutorial.html">The tutorial</a>
 goes on from here; <a href="../docs/reference/extras.html">extras</a> bring more.</p>
@@ -51,6 +51,7 @@ goes on from here; <a href="../docs/reference/extras.html">extras</a> bring more
 <script>
 const line = document.querySelector("pre code");
 line.textContent = line.textContent.replace("ADDRESS", new URL(".", location).href);
+document.querySelector("span").remove();
 </script>
 </body>
 </html>
