@@ -5,8 +5,8 @@ In a checkout without changes it writes, with the same bytes on every run with t
     python/           the source archive and the wheel; with --platform TAG also that of this one
     npm/              the package of the element
     blender/          the add-on of one file
-    conda/            the recipe for conda, which takes the source archive in python/
-    site.tar.gz       the designer, the docs with live cloth, and the files above but the recipe
+    conda/            the package for conda, of the plain wheel
+    site.tar.gz       the designer, the docs with live cloth, and the files above but that for conda
     drapery.cdx.json  the dependencies in the versions of constraints.txt, as CycloneDX
     SHA256SUMS        the checksums of these files, for `sha256sum --check`
 
@@ -24,15 +24,9 @@ import venv
 from collections.abc import Sequence
 from pathlib import Path
 
-from release import build, packages, site
+from release import build, conda, packages, site
 
 SUMS = "SHA256SUMS"
-RECIPE = build.ROOT / "release" / "conda" / "recipe.yaml"
-CHECKOUT = """source:
-  path: ../..
-  use_gitignore: true
-"""
-"""What the recipe takes in a checkout."""
 
 
 def build_all(out: Path, platform: str | None) -> None:
@@ -51,27 +45,14 @@ def build_all(out: Path, platform: str | None) -> None:
         run("release.kernels")
     packages.make(out, platform)
     files = list(out.glob("*/*"))
-    (out / "conda").mkdir()
-    (archive,) = (out / "python").glob("*.tar.gz")
-    (out / "conda" / RECIPE.name).write_text(recipe(archive), "utf-8", newline="\n")
+    (wheel,) = (out / "python").glob("*-none-any.whl")
+    conda.build(wheel, out / "conda")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         site.build(folder / "site", files)
         (out / "site.tar.gz").write_bytes(build.packed(folder / "site", "site"))
-        (wheel,) = (out / "python").glob("*-none-any.whl")
         (out / "drapery.cdx.json").write_bytes(components(wheel, folder / "env"))
     (out / SUMS).write_text(sums(out), "utf-8", newline="\n")
-
-
-def recipe(archive: Path) -> str:
-    """The recipe for conda that takes this source archive, by its checksum."""
-    text = RECIPE.read_text("utf-8").replace(
-        "--recipe release/conda`, in a checkout", "--recipe conda`"
-    )
-    if CHECKOUT not in text:
-        raise SystemExit(f"{RECIPE} takes no checkout")
-    source = f"source:\n  path: ../python/{archive.name}\n  sha256: {digest(archive)}\n"
-    return text.replace(CHECKOUT, source)
 
 
 def components(wheel: Path, folder: Path) -> bytes:

@@ -33,7 +33,6 @@ FIELDS = (
         "# What each extra is for",
     ),
     Fields("CITATION.cff", "repository-code: {0}\n", "license: ["),
-    Fields("release/conda/recipe.yaml", "  homepage: {0}\n  repository: {0}\n", "  license: "),
     Fields("CHANGELOG.md", "\n[Unreleased]: {0}/commits/main\n", ""),
 )
 

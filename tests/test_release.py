@@ -8,8 +8,6 @@ from pathlib import Path
 
 import pytest
 import yaml
-from packaging.requirements import Requirement
-from packaging.specifiers import SpecifierSet
 
 import drapery
 from release import repository
@@ -103,18 +101,3 @@ def test_the_citation_has_the_version_of_the_package() -> None:
     assert cited["version"] == PROJECT["version"]
     assert cited["cff-version"] == "1.2.0" and cited["title"] and cited["authors"]
     assert " AND ".join(cited["license"]) == PROJECT["license"]
-
-
-def test_the_conda_recipe_needs_what_the_package_needs() -> None:
-    recipe = yaml.safe_load((ROOT / "release/conda/recipe.yaml").read_text("utf-8"))
-    assert recipe["context"]["version"] == PROJECT["version"]
-    assert recipe["about"]["license"] == PROJECT["license"]
-    assert recipe["build"]["python"]["entry_points"] == [
-        f"{name} = {place}" for name, place in PROJECT["scripts"].items()
-    ]
-    python, *run = recipe["requirements"]["run"]
-    least = python.replace("${{ python_min }}", recipe["context"]["python_min"])
-    assert least == f"python {PROJECT['requires-python']}"
-    needed = [Requirement(text) for text in PROJECT["dependencies"]]
-    listed = {name: SpecifierSet(bounds) for name, bounds in (line.split(" ") for line in run)}
-    assert listed == {each.name: each.specifier for each in needed}

@@ -4,10 +4,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-import yaml
 
 from release import all as everything, build
-from release.all import RECIPE
 
 # The digest of "abc" is the first example of FIPS 180-2, appendix B.
 ABC = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
@@ -52,12 +50,3 @@ def test_a_packed_folder_has_the_same_bytes_at_any_time(
     first = build.packed(tmp_path / "site", "site")
     (tmp_path / "site" / "index.html").touch()
     assert build.packed(tmp_path / "site", "site") == first
-
-
-def test_the_recipe_for_conda_takes_the_source_archive_by_its_checksum(tmp_path: Path) -> None:
-    archive = tmp_path / "drapery_mc-0.1.0.tar.gz"
-    archive.write_bytes(b"abc")
-    made, own = (yaml.safe_load(text) for text in (everything.recipe(archive), RECIPE.read_text()))
-    assert made.pop("source") == {"path": f"../python/{archive.name}", "sha256": ABC}
-    assert own.pop("source")["path"] == "../.."
-    assert made == own
