@@ -57,8 +57,8 @@ SENT = " The body is its skin, a PNG file."
 CLOSED_REQUEST = 499
 """The status that metrics count for a client that disconnected; it is not sent."""
 REASONS = {
-    403: "the service has a secret, and the address no signature made with it",
     304: "the picture that If-None-Match names is unchanged",
+    403: "the service has a secret, and the address has no signature made with it",
     408: "the skin did not arrive in time",
     413: "the skin is too large",
     414: "the query is too long",
