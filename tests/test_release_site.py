@@ -16,7 +16,7 @@ from release import packages, site
 
 ROOT = Path(__file__).parent.parent
 PREFIX = "under/a/prefix"
-INNER = "document.querySelector('drapery-designer').shadowRoot.querySelector('drapery-banner')"
+INNER = "document.querySelector('drapery-designer')?.shadowRoot?.querySelector('drapery-banner')"
 
 
 def test_each_link_of_the_designer_is_a_page_of_the_docs() -> None:

@@ -55,8 +55,9 @@ def open_site(
 
 
 def is_live(browser: Any, element: str = ELEMENT) -> bool:
-    """Whether an element shows its cloth."""
-    return bool(browser.execute_script(f"return !{element}.{CANVAS}.hidden"))
+    """Whether an element shows its cloth; it may not be there yet, or its module not loaded."""
+    canvas = f"{element}?.shadowRoot?.querySelector('canvas')"
+    return bool(browser.execute_script(f"return {canvas}?.hidden === false"))
 
 
 def picture(browser: Any, element: str = ELEMENT) -> np.ndarray:

@@ -41,7 +41,7 @@ ALONE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Inline</t
 <drapery-designer language="de"></drapery-designer>
 <script type="module" src="drapery-inline.js"></script>
 """
-INNER = "document.querySelector('drapery-designer').shadowRoot.querySelector('drapery-banner')"
+INNER = "document.querySelector('drapery-designer')?.shadowRoot?.querySelector('drapery-banner')"
 NO_SIMD = """
 WebAssembly.compile = async () => {
   throw new WebAssembly.CompileError("Wasm SIMD unsupported");
