@@ -65,29 +65,9 @@ def run(
         from drapery.banner import read_design
 
         garment = garment.with_design(read_design(banner))
-    check_given(context, out)
+    o.check_given(context, out)
     settings = garment.settings(**o.options_of(words))
     write_garment(garment, out, settings, seconds, fps)
-
-
-def check_given(context: typer.Context, out: str) -> None:
-    """Raise OptionError for an option that is given and that what `out` holds does not show: a
-    still picture, a page of live cloth, or a 3-D file of one pose, which has 0 seconds."""
-    from drapery.errors import OptionError
-    from drapery.file_formats import known_format
-    from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS
-
-    format = known_format(out, "still", "loop", "model", "page")
-    kind = format.kind() if format else None
-    options = {**LOOP_OPTIONS, **NAMED_OPTIONS} if kind == "page" else LOOP_OPTIONS
-    for name, option in options.items():
-        refusal = None
-        if kind == "still" or kind == "page":
-            refusal = option.refusal(output=kind)
-        elif format and kind == "model" and not format.moving and context.params[name]:
-            refusal = f"{name} does nothing for {format.name}, which holds one pose; leave it out"
-        if refusal is not None and o.is_given(context, name):
-            raise OptionError(f"{out}: {refusal}")
 
 
 def write_garment(

@@ -5,7 +5,6 @@ from typing import Annotated, Any, Literal
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.garment import check_given
 from drapery.commands.notices import compile_notice
 from drapery.file_formats import endings_of
 
@@ -37,7 +36,7 @@ def run(
     from drapery import save_model
     from drapery.errors import OptionError
 
-    check_given(context, out)
+    o.check_given(context, out)
     if not seconds and o.is_given(context, "fps"):
         raise OptionError(f"{out}: fps does nothing for one pose; leave it out, or seconds 0")
     settings = o.settings_of(words)

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.garment import check_given, write_garment
+from drapery.commands.garment import write_garment
 from drapery.option import Subject
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 
@@ -34,5 +34,5 @@ def run(
         for name, option in PLAYER_OPTIONS.items()
     }
     player = player_of(PlayerSettings(**chosen))
-    check_given(context, out)
+    o.check_given(context, out)
     write_garment(player, out, player.settings(**o.options_of(words)), seconds, fps)
