@@ -1,8 +1,29 @@
-"""An extension of griffe: the public names of packages that import them at their first use."""
+"""The public packages, and an extension of griffe that finds the names which they export.
+
+The reference, its index and the tests of what others may import read `PACKAGES`.
+"""
 
 from typing import Any
 
 import griffe
+
+PACKAGES = {
+    "drapery": "`draw`, `animate`, `Banner`, `Settings`, the errors",
+    "drapery.banner": "designs and the forms in which they are written",
+    "drapery.packs": "resource packs",
+    "drapery.cloth": "the simulation: cloths, forces, colliders, solvers",
+    "drapery.style": "from moving cloth to what is drawn",
+    "drapery.styles": "the style toolkit",
+    "drapery.render": "pictures of meshes",
+    "drapery.garments": "cloth as data: garments, and players who wear them",
+    "drapery.scenes": "banners and garments before a camera, and ready-made scenes",
+    "drapery.sheets": "many labelled pictures on one",
+    "drapery.comparison": "how two pictures differ, and from which layer on",
+    "drapery.match": "designs that look like a picture",
+    "drapery.batch": "many pictures from a manifest",
+    "drapery.testing": "golden images in tests",
+}
+"""What each package holds from which others may import; all other modules may change."""
 
 LAZY = "import_lazily"
 

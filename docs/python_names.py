@@ -67,12 +67,16 @@ def _section(heading: str, name: str, found: griffe.Object) -> str:
 
 def _signature(name: str, found: griffe.Object) -> str:
     if isinstance(found, griffe.Class):
+        if "Protocol" in map(str, found.bases) and "__call__" in found.members:
+            return _signature(name, found["__call__"])  # a name of functions
         parameters = list(_parameters(found.parameters))
         return _call(f"class {name}", parameters, "") if parameters else f"class {name}"
     if isinstance(found, griffe.Function):
         returns = f" -> {found.returns}" if found.returns else ""
         return _call(name, list(_parameters(found.parameters)), returns)
-    annotation = getattr(found, "annotation", None)
+    annotation, value = getattr(found, "annotation", None), str(getattr(found, "value", ""))
+    if str(annotation) in ("None", "TypeAlias") and name[:2] != name[:2].upper():
+        return f"{name} = {value}"  # a name of types
     return f"{name}: {annotation}" if annotation else name
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import typer.main
+from public_names import PACKAGES
 from python_names import names_of
 
 from drapery.commands.app import command_line
@@ -77,6 +78,15 @@ def _examples() -> str:
         for path, text in texts.items()
         if len([line for line in text.splitlines() if line.strip()]) <= SHORT
     )
+
+
+def _packages() -> str:
+    """A table of the public packages, with links to the reference of each."""
+    rows = [
+        f"| [{name}](python/{name.rpartition('.')[2]}.md) | {text} |"
+        for name, text in PACKAGES.items()
+    ]
+    return "\n".join(["| package | what it holds |", "|---|---|", *rows, ""])
 
 
 def commands() -> str:
@@ -161,6 +171,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "commands": commands,
     "examples": _examples,
     "garments": _garments,
+    "packages": _packages,
     "pack-formats": _pack_formats,
     "file-formats": _file_formats,
 }

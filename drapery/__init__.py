@@ -6,10 +6,12 @@
 
 `drapery.banner` reads and writes designs and composites their sheets, `drapery.packs` opens
 resource packs and makes them in memory, `drapery.cloth` simulates cloth, `drapery.style` gives a
-simulated cloth its thickness and textures, `drapery.render` draws meshes, `drapery.scenes` hangs
-cloth before a camera and plays ready-made scenes, `drapery.comparison` and `drapery.sheets` compare
-and list pictures, `drapery.testing` checks them against golden ones. Names are loaded when they
-are first used.
+simulated cloth its thickness and textures, `drapery.styles` changes how it looks, `drapery.render`
+draws meshes, `drapery.garments` cuts garments and dresses players, `drapery.scenes` hangs cloth
+before a camera and plays ready-made scenes, `drapery.comparison` and `drapery.sheets` compare and
+list pictures, `drapery.match` finds designs that look like a picture, `drapery.batch` draws a
+manifest of pictures, `drapery.testing` checks pictures against golden ones. Names are loaded when
+they are first used.
 """
 
 from pathlib import Path

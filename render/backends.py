@@ -23,7 +23,7 @@ It cannot have the name of a built-in backend. `drapery doctor` draws a triangle
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from drapery.errors import BackendError
 from drapery.render.buffers import Buffers
@@ -33,8 +33,6 @@ from drapery.render.scene import Scene
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-DrawScene = Callable[[Scene], Frame]
-"""A backend."""
 MakeBuffers = Callable[[], Buffers]
 
 GROUP = "drapery.backends"
@@ -45,6 +43,16 @@ BUILT_IN = {
 }
 DEFAULT = "soft"
 """The backend `auto`: it needs no system package and gives the same bits everywhere."""
+
+
+class DrawScene(Protocol):
+    """A backend: a function that draws a `Scene` as a `Frame` of its size.
+
+    It raises OptionError for a scene that it cannot draw, and BackendError if a library or device
+    is missing.
+    """
+
+    def __call__(self, scene: Scene, /) -> Frame: ...
 
 
 def backend(name: str | DrawScene = "auto") -> DrawScene:

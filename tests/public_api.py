@@ -5,6 +5,7 @@ compares what is there now with that file and with the CHANGELOG.
 """
 
 import re
+import runpy
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -14,11 +15,9 @@ import griffe
 
 ROOT = Path(__file__).parent.parent
 RECORD = Path(__file__).with_suffix(".txt")
-PUBLIC = (
-    *("drapery", "cloth", "banner", "packs", "render", "style", "scenes", "pictures"),
-    *("comparison", "garments", "sheets", "testing", "batch"),
-)
-"""The package and those of its modules that others may import."""
+PUBLIC_NAMES = ROOT / "docs" / "public_names.py"
+PACKAGES: tuple[str, ...] = tuple(runpy.run_path(str(PUBLIC_NAMES))["PACKAGES"])
+"""Those that others may import."""
 
 
 def load() -> griffe.Module:
@@ -32,17 +31,16 @@ def load() -> griffe.Module:
             "drapery",
             search_paths=[folder],
             try_relative_path=False,
-            extensions=griffe.load_extensions(str(ROOT / "docs" / "public_names.py")),
+            extensions=griffe.load_extensions(str(PUBLIC_NAMES)),
         )
     assert isinstance(loaded, griffe.Module)
     return loaded
 
 
 def public_objects(package: griffe.Module) -> Iterator[tuple[str, griffe.Object]]:
-    """The objects that every public module exports, by their public names, sorted."""
-    for module in PUBLIC:
-        home = package if module == "drapery" else package[module]
-        prefix = "drapery" if module == "drapery" else f"drapery.{module}"
+    """The objects that every public package exports, by their public names, sorted."""
+    for prefix in PACKAGES:
+        home = package if prefix == "drapery" else package[prefix.removeprefix("drapery.")]
         for name in sorted(str(export) for export in home.exports or ()):
             found = home.members[name]
             yield f"{prefix}.{name}", found.final_target if found.is_alias else found

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
+from public_api import PACKAGES
 
 from drapery.testing.plugin import Golden
 
@@ -38,18 +39,6 @@ PROGRAMS = {
 STUDIES = sorted(path.stem for path in EXAMPLES.glob("*.py") if path.stem not in PROGRAMS)
 SMALLER: dict[str, dict[str, Any]] = {"crowd": {"side": 5}}
 """The same program on less, where the whole takes long."""
-PUBLIC = (
-    *("drapery", "drapery.banner", "drapery.batch", "drapery.cloth", "drapery.cloth.colliders"),
-    *(
-        "drapery.garments",
-        "drapery.packs",
-        "drapery.render",
-        "drapery.scenes",
-        "drapery.style",
-        "drapery.styles",
-    ),
-    "drapery.testing",
-)
 
 
 def run(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -73,7 +62,7 @@ def test_an_example_uses_only_public_names(name: str) -> None:
     text = (EXAMPLES / f"{name}.py").read_text()
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("drapery"):
-            assert node.module in PUBLIC
+            assert node.module in PACKAGES
             public = import_module(node.module).__all__
             assert {alias.name for alias in node.names} <= set(public)
         elif isinstance(node, ast.Import):

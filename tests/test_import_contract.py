@@ -9,6 +9,7 @@ from graphlib import CycleError, TopologicalSorter
 from importlib import import_module
 
 import pytest
+from public_api import PACKAGES
 from source_modules import FOLDERS, ROOT, modules
 
 FOUNDATION = {
@@ -91,14 +92,8 @@ ALLOWED: dict[str, set[str]] = {
 KNOWS_NO_SETTINGS = {"cloth", "banner", "packs", "render", "assets"}
 """Packages that others use without Drapery's options."""
 
-PUBLIC = {
-    *("drapery", "drapery.cloth", "drapery.cloth.colliders", "drapery.banner", "drapery.packs"),
-    *("drapery.render", "drapery.style", "drapery.styles", "drapery.scenes", "drapery.pictures"),
-    "drapery.garments",
-    *("drapery.comparison", "drapery.sheets", "drapery.match", "drapery.testing", "drapery.batch"),
-    *(f"drapery.{name}" for name in FOUNDATION),
-}
-"""Modules whose names others may import."""
+PUBLIC = {*PACKAGES, "drapery.pictures", *(f"drapery.{name}" for name in FOUNDATION)}
+"""Modules whose names our applications may import: the public ones, and `draw_scenes`."""
 
 
 def package_of(name: str) -> str:

@@ -1,6 +1,17 @@
 """The public API: every change is announced, and every name is documented."""
 
-from public_api import ROOT, announced, changed, load, public_objects, read_record, signatures
+from public_api import (
+    PACKAGES,
+    ROOT,
+    announced,
+    changed,
+    load,
+    public_objects,
+    read_record,
+    signatures,
+)
+
+import drapery
 
 
 def test_every_change_of_a_public_signature_is_in_the_changelog() -> None:
@@ -27,3 +38,11 @@ def test_only_the_newest_section_of_the_changelog_announces() -> None:
 def test_every_public_name_has_a_docstring() -> None:
     bare = [name for name, found in public_objects(load()) if not found.has_docstring]
     assert not bare, f"document: {', '.join(bare)}"
+
+
+def test_every_public_package_is_in_the_reference_and_in_the_text_of_drapery() -> None:
+    pages = {path.stem for path in (ROOT / "docs/reference/python").glob("*.md")}
+    assert pages == {name.rpartition(".")[2] for name in PACKAGES}
+    nav = (ROOT / "mkdocs.yml").read_text("utf-8")
+    assert all(f"reference/python/{page}.md" in nav for page in pages)
+    assert all(f"`{name}`" in str(drapery.__doc__) for name in PACKAGES if name != "drapery")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from public_api import PACKAGES
 
 import drapery
 from drapery import (
@@ -29,10 +30,9 @@ pytestmark = pytest.mark.usefixtures("untraced_processes")
 DESIGN = Banner.parse("white creeper:lime")
 ROOT = Path(__file__).parents[1]
 SMALL = Settings(size=(24, 32))
-PUBLIC = ("drapery", "drapery.cloth", "drapery.render", "drapery.packs")
 
 
-@pytest.mark.parametrize("module", PUBLIC)
+@pytest.mark.parametrize("module", PACKAGES)
 def test_every_public_name_is_there_and_documented(module: str) -> None:
     package = import_module(module)
     assert len(set(package.__all__)) == len(package.__all__)

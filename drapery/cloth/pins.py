@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +16,24 @@ Pins = PinName | Predicate | Sequence[int] | NDArray[np.integer]
 """Which particles are held: the name of some of a grid's, the particles' numbers, or a function
 from the rest positions [m], shape [N, 3], to bools, shape [N]."""
 
-PinPath = Callable[[float], Array]
-"""Where the pinned particles are at a time [s]: positions [m], shape [P, 3] or [B, P, 3].
 
-The P pins are in the order of the particles' numbers.
-"""
-PosePath = Callable[[float], tuple[Array, Array]]
-"""Rotation [3, 3] and translation [m], [3], of a rigid body at a time [s]."""
+class PinPath(Protocol):
+    """A function that says where the pinned particles are.
+
+    It takes a time [s] and returns positions [m], shape [P, 3] or [B, P, 3]. The P pins are in the
+    order of the particles' numbers.
+    """
+
+    def __call__(self, time: float, /) -> Array: ...
+
+
+class PosePath(Protocol):
+    """A function that says where a rigid body is.
+
+    It takes a time [s] and returns a rotation, shape [3, 3], and a translation [m], shape [3].
+    """
+
+    def __call__(self, time: float, /) -> tuple[Array, Array]: ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,7 +21,17 @@ Fit = Literal["cover", "contain", "stretch"]
 Weighting = Literal["even", "centre", "edges", "rare"]
 
 FITS: tuple[Fit, ...] = get_args(Fit)
+"""How a picture is brought to the shape of a banner, 1 : 2.
+
+`cover` cuts off what does not fit, `contain` shows the whole picture, and `stretch` changes its
+shape.
+"""
 WEIGHTINGS: tuple[Weighting, ...] = get_args(Weighting)
+"""Which texels count more when a design is compared with a picture.
+
+`even` none, `centre` those near the middle, `edges` those at outlines, `rare` those of colours that
+few texels have.
+"""
 
 MAX_BYTES = 64 << 20
 _PNG = b"\x89PNG\r\n\x1a\n"

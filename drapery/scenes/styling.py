@@ -10,6 +10,7 @@ import numpy as np
 
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
+from drapery.render.backends import DrawScene
 from drapery.render.frame import Frame
 from drapery.render.light import STUDIO_LIGHT, UNLIT
 from drapery.render.scene import Model, Scene
@@ -17,8 +18,6 @@ from drapery.scenes.picture_grid import Picture, PictureGrid
 from drapery.style.sheet import Sheet
 from drapery.style.tailoring import ClothModel
 from drapery.styles.style import Style
-
-DrawScene = Callable[[Scene], Frame]
 
 
 def styled_pictures(

@@ -135,7 +135,7 @@ def thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
 def extrude(mesh: Mesh, thickness: float, uv_mapping: UVMapping = SHEET_MAPPING) -> Mesh:
     """Give a thin mesh a thickness [m]: front and back sheets and a closed rim.
 
-    mesh: its normals point forwards; give averaged ones (`drapery.mesh.vertex_normals`).
+    mesh: its normals point forwards; give averaged ones (`drapery.render.vertex_normals`).
     uv_mapping: see `make_shell`. For moving cloth, make the shell once and `cover` each moment.
     """
     shell = make_shell(mesh.triangles, mesh.uvs, uv_mapping)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
 
 StepKind = Literal["motion", "shape", "material", "picture"]
+"""What a step changes: how cloth moves, its shape, its material, or the picture."""
 STEP_KINDS: tuple[StepKind, ...] = get_args(StepKind)
 """The kinds of steps, in the order in which they are applied."""
 

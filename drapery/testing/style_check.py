@@ -5,11 +5,11 @@ from collections import Counter
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery import animate, draw
 from drapery.banner import parse_banner
 from drapery.errors import OptionError, counted
 from drapery.mesh import Mesh
 from drapery.packs import open_packs
-from drapery.pictures import animate, draw
 from drapery.scenes import loop
 from drapery.settings import Settings
 from drapery.styles import Style
