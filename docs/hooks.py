@@ -1,13 +1,12 @@
 """What the site's builder adds: the reference of Python, live cloth, links, llms.txt."""
 
-import logging
 import os
 import re
 import shutil
-from collections.abc import Callable
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 
+from linked_files import linked_files, with_links
 from python_names import copy_sources
 
 from drapery.settings import Settings
@@ -53,14 +52,21 @@ def _has_kernels() -> bool:
     return module_places()[0].is_file()
 
 
+def on_files(files: Any, config: Any) -> Any:
+    """The files of the site, and those of the repository to which its pages link."""
+    for file in linked_files(files, config):
+        files.append(file)
+    return files
+
+
 def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
-    """The page with the reference of a module; links that lead out of the site are text."""
+    """The page with the reference of a module, and links to files of the repository."""
     text = PYTHON_NAMES.sub(r"::: \1\n", markdown)
     text = text.replace("<!-- live gallery -->", _live_gallery())
     if page.is_homepage and DESIGNER:
         text = text.replace(DESIGNER_GUIDE, f'<a href="{DESIGNER}">the designer</a>')
         text = text.replace(PACKAGES_GUIDE, f'<a href="{PACKAGES}">this site has the package</a>')
-    text = re.sub(r"\[([^]]+)\]\((?:\.\./)+(?!docs/)([\w./-]+)\)", _outside(page, config), text)
+    text = with_links(text, page.file.src_uri)
     pages[page.file.src_uri] = page.title, text
     return text
 
@@ -83,23 +89,6 @@ def on_post_build(config: Any) -> None:
             target.write_text(text, encoding="utf-8")
         lines.append(f"- [{title}]({target.relative_to(site).as_posix()})")
     (site / "llms.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
-def _outside(page: Any, config: Any) -> Callable[[re.Match[str]], str]:
-    """Replaces a link that leads out of the docs: by its text, if what it names exists."""
-    folder = Path(config["docs_dir"], page.file.src_uri).parent
-
-    def replace(found: re.Match[str]) -> str:
-        target = re.search(r"\(([^)]*)\)$", found[0])
-        assert target is not None
-        path = (folder / target[1]).resolve()
-        if path.is_relative_to(Path(config["docs_dir"]).resolve()):
-            return found[0]
-        if not path.exists():
-            logging.getLogger("mkdocs.hooks").warning("%s: no %s", page.file.src_uri, target[1])
-        return f"{found[1]} (`{PurePosixPath(path.relative_to(ROOT))}`)"
-
-    return replace
 
 
 def _live_gallery() -> str:

@@ -1,9 +1,13 @@
 """The site: the designer at its root leads to the docs and back, under any path."""
 
+import io
 import re
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from urllib.parse import urljoin
+from urllib.request import urlopen
 
 import pytest
 from selenium.webdriver.common.by import By
@@ -59,3 +63,67 @@ def test_the_designer_leads_to_the_docs_under_a_prefix(chromium: Any, address: s
     open_site(chromium, f"{address}docs/index.html", ready=False)
     chromium.find_element(By.LINK_TEXT, "x").click()
     wait_until(lambda: is_live(chromium, INNER))
+
+
+@pytest.fixture(scope="module")
+def docs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, str]]:
+    """The folder of the docs under a prefix and its address; without live cloth and plugins."""
+    pytest.importorskip("mkdocs", reason="the builder of the docs is not installed")
+    from mkdocs.commands.build import build
+    from mkdocs.config import load_config
+
+    root = tmp_path_factory.mktemp("docs")
+    folder = root / PREFIX / site.DOCS
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("drapery.web.wasm.module.module_places", lambda: [root / "none"])
+        patch.syspath_prepend(ROOT / "docs")
+        build(load_config(str(ROOT / "mkdocs.yml"), plugins=[], site_dir=str(folder)))
+    for each in served(root):
+        yield folder, f"{each}/{PREFIX}/{site.DOCS}/"
+
+
+def links(folder: Path, target: str) -> Iterator[tuple[str, str]]:
+    """Each page of the built docs, and what it links to of a kind, by a pattern."""
+    for page in sorted(folder.rglob("*.html")):
+        for found in re.findall(rf'<a [^>]*href="({target})"', page.read_text("utf-8")):
+            yield page.relative_to(folder).as_posix(), found
+
+
+def test_files_to_which_pages_link_can_be_loaded(docs: tuple[Path, str]) -> None:
+    folder, address = docs
+    loaded = {}
+    for page, target in links(folder, r"(?:\.\./)*files/[^\"]+"):
+        place = urljoin(address + page, target)
+        with urlopen(place) as answer:
+            loaded[place.partition("/files/")[2]] = answer.read()
+    for name in ("release/compose.yaml", "release/Containerfile", "examples/crowd.py"):
+        assert loaded[name] == (ROOT / name).read_bytes()
+    assert loaded["release/blender/drapery_banners.py"] == packages.ADD_ON.read_bytes()
+    with zipfile.ZipFile(io.BytesIO(loaded["examples/pack.zip"])) as archive:
+        cases = ROOT / "examples" / "pack" / "cases.toml"
+        assert archive.read("pack/cases.toml") == cases.read_bytes()
+        assert "pack/.gitlab-ci.yml" in archive.namelist()
+
+
+def test_a_page_that_names_a_file_of_the_repository_links_to_it(docs: tuple[Path, str]) -> None:
+    """Explanations and notes are about the sources and name many; a command is typed, no link."""
+    folder, _ = docs
+    bare = []
+    for page in sorted(folder.rglob("*.html")):
+        name = page.relative_to(folder).as_posix()
+        text = re.sub(r"(?s)<a .*?</a>|<pre.*?</pre>", "", page.read_text("utf-8"))
+        for code in re.findall(r"<code>([\w.-]+/[\w./-]+)</code>", text):
+            if (ROOT / code).exists() and not name.startswith(("explanation/", "notes/")):
+                bare.append((name, code))
+    assert bare == []
+
+
+def test_no_link_of_a_page_leads_nowhere(docs: tuple[Path, str]) -> None:
+    folder, _ = docs
+    relative = r"(?![a-z]+:|#|/)[^\"#]+(?=[\"#])"
+    missing = [
+        (page, target)
+        for page, target in links(folder, relative)
+        if not (folder / page).parent.joinpath(target).exists()
+    ]
+    assert missing == []

@@ -7,8 +7,8 @@ from drapery.garments import find_garment
 draw(find_garment("cape"), size=(320, 480)).save("cape.png")
 ```
 
-A `Garment` has pieces of cloth, seams, pins and a wearer; `Garment.load` reads a file. See
-`docs/guides/garments.md`. Names are imported when they are first used.
+A `Garment` has pieces of cloth, seams, pins and a wearer; `Garment.load` reads a file, whose
+fields the guide to garments lists. Names are imported when they are first used.
 """
 
 from typing import TYPE_CHECKING

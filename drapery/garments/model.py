@@ -495,7 +495,7 @@ class GarmentWearer(GarmentTable):
 
 
 class Garment(GarmentTable):
-    """Cloth as data; see docs/guides/garments.md.
+    """Cloth as data; the guide to garments lists the fields.
 
     name: shown in lists; the name of its file. description: one line about it.
     fabric: the name of a preset, or a table of the fields of `Fabric`. thickness: [texels].
