@@ -2,6 +2,7 @@
 
 import ast
 import importlib.util
+import io
 import runpy
 import subprocess
 import sys
@@ -14,6 +15,7 @@ import pytest
 import trimesh
 from PIL import Image
 from public_api import PACKAGES
+from service_process import service
 
 from drapery.testing.plugin import Golden
 
@@ -36,7 +38,7 @@ PROGRAMS = {
     "compare_solvers": ("stretch.csv",),
 }
 """Programs of at most fifteen lines, and what each leaves in the current folder."""
-STUDIES = sorted(path.stem for path in EXAMPLES.glob("*.py") if path.stem not in PROGRAMS)
+STUDIES = sorted(path.stem for path in EXAMPLES.glob("*.py") if path.stem not in (*PROGRAMS, "bot"))
 SMALLER: dict[str, dict[str, Any]] = {"crowd": {"side": 5}}
 """The same program on less, where the whole takes long."""
 
@@ -57,7 +59,7 @@ def test_a_program_is_short(name: str) -> None:
     assert len([line for line in text.splitlines() if line.strip()]) <= 15
 
 
-@pytest.mark.parametrize("name", [*PROGRAMS, *STUDIES])
+@pytest.mark.parametrize("name", [*PROGRAMS, *STUDIES, "bot"])
 def test_an_example_uses_only_public_names(name: str) -> None:
     text = (EXAMPLES / f"{name}.py").read_text()
     for node in ast.walk(ast.parse(text)):
@@ -144,6 +146,26 @@ def test_a_study_writes_its_pictures(name: str, tmp_path: Path) -> None:
         with Image.open(path) as picture:
             texels = np.asarray(picture.convert("RGBA"))
         assert len(np.unique(texels.reshape(-1, 4), axis=0)) > 8, path.name
+
+
+def test_a_bot_answers_with_a_moving_banner_or_with_the_reason_why_there_is_none(
+    untraced_processes: None,
+) -> None:
+    pytest.importorskip("fastapi", reason="fastapi is not installed (drapery-mc[serve])")
+    answer = runpy.run_path(str(EXAMPLES / "bot.py"))["answer"]
+    with service() as (address, _):
+        with Image.open(io.BytesIO(answer("white creeper:lime", address))) as picture:
+            assert picture.format == "GIF" and picture.size == (192, 240)
+            assert picture.n_frames == 20  # type: ignore[attr-defined]
+        assert "unknown pattern 'creper'" in answer("white creper:lime", address)
+    assert answer("white", address) == "No picture now; try again later."
+
+
+def test_the_guide_shows_the_bot_of_the_example() -> None:
+    program = (EXAMPLES / "bot.py").read_text("utf-8")
+    assert len([line for line in program.splitlines() if line.strip()]) <= 30
+    guide = (EXAMPLES.parent / "docs/guides/wikis-and-bots.md").read_text("utf-8")
+    assert f'```python title="bot.py"\n{program}```\n' in guide
 
 
 def test_the_guide_shows_the_solver_of_the_example() -> None:
