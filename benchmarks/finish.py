@@ -16,7 +16,8 @@ from benchmarks.quick import add_quick
 from drapery import Banner, draw
 from drapery.cloth import FABRICS
 from drapery.packs import open_packs
-from drapery.render import Frame, contact_table
+from drapery.render import Frame
+from drapery.render.contact import contact_table
 from drapery.render.soft import draw_scene
 from drapery.scenes import still
 from drapery.settings import Settings

@@ -38,16 +38,7 @@ if TYPE_CHECKING:
         projection_matrix as projection_matrix,
         view_matrix as view_matrix,
     )
-    from drapery.render.contact import (
-        contact_sheet as contact_sheet,
-        contact_table as contact_table,
-        on_checker as on_checker,
-        stack_frames as stack_frames,
-    )
-    from drapery.render.contact_images import (
-        checkered as checkered,
-        contact_strips as contact_strips,
-    )
+    from drapery.render.contact import contact_sheet as contact_sheet
     from drapery.render.debug import (
         at_particles as at_particles,
         edges_model as edges_model,
@@ -56,10 +47,6 @@ if TYPE_CHECKING:
         spring_stretch as spring_stretch,
         springs_model as springs_model,
         stretch_model as stretch_model,
-    )
-    from drapery.render.doctor import (
-        BackendReport as BackendReport,
-        backend_report as backend_report,
     )
     from drapery.render.drawing import (
         Colour as Colour,
@@ -71,33 +58,17 @@ if TYPE_CHECKING:
         DrawList as DrawList,
         Topology as Topology,
         draw_list as draw_list,
-        make_topology as make_topology,
     )
-    from drapery.render.encode import (
-        check_quality as check_quality,
-        check_target as check_target,
-        save_animation as save_animation,
-        save_frame as save_frame,
-    )
+    from drapery.render.encode import save_animation as save_animation, save_frame as save_frame
     from drapery.render.encode.fitting import (
         FittedLoop as FittedLoop,
         save_for as save_for,
     )
-    from drapery.render.encode.output import (
-        check_writable as check_writable,
-        make_folder as make_folder,
-        replacing as replacing,
-    )
     from drapery.render.encode.png import apng_bytes as apng_bytes, png_bytes as png_bytes
-    from drapery.render.encode.quick_png import (
-        quick_png_bytes as quick_png_bytes,
-        quick_png_of_strips as quick_png_of_strips,
-    )
     from drapery.render.encode.webp import webp_bytes as webp_bytes
     from drapery.render.export import save_model as save_model
     from drapery.render.flatten import composite_layers as composite_layers
     from drapery.render.frame import Animation as Animation, Frame as Frame, Pixels as Pixels
-    from drapery.render.identity_cache import IdentityCache as IdentityCache
     from drapery.render.light import (
         GAME_LIGHT as GAME_LIGHT,
         UNLIT as UNLIT,
@@ -107,7 +78,6 @@ if TYPE_CHECKING:
     from drapery.render.lines import dot_model as dot_model, line_model as line_model
     from drapery.render.materials import MaterialTables as MaterialTables
     from drapery.render.relief import bake_normal_maps as bake_normal_maps
-    from drapery.render.resize import enlarge as enlarge
     from drapery.render.scene import (
         Material as Material,
         Model as Model,

@@ -18,7 +18,7 @@ FOUNDATION = {
     *("jit_objects", "jit_runtime", "kernel_sources"),
     *("lazy", "toml_text", "player_settings", "version"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
-    *("json_text", "model_faults", "file_formats"),
+    *("json_text", "model_faults", "file_formats", "output_files"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
 PICTURES = {"scenes", "pictures", "comparison", "sheets", "match"}
@@ -59,6 +59,7 @@ ALLOWED: dict[str, set[str]] = {
     "user_files": {"errors"},
     "toml_text": {"errors", "user_files"},
     "file_formats": {"errors"},
+    "output_files": {"errors"},
     "picture_file": {"errors", "file_formats"},
     "picture_pixels": {"errors"},
     "sqlite_faults": set(),
@@ -92,8 +93,13 @@ ALLOWED: dict[str, set[str]] = {
 KNOWS_NO_SETTINGS = {"cloth", "banner", "packs", "render", "assets"}
 """Packages that others use without Drapery's options."""
 
-PUBLIC = {*PACKAGES, "drapery.pictures", *(f"drapery.{name}" for name in FOUNDATION)}
-"""Modules whose names our applications may import: the public ones, and `draw_scenes`."""
+SHARED = {
+    *("drapery.pictures", "drapery.render.contact", "drapery.render.contact_images"),
+    *("drapery.render.doctor", "drapery.render.drawlist", "drapery.render.encode"),
+    *("drapery.render.encode.quick_png", "drapery.render.identity_cache", "drapery.render.resize"),
+    *(f"drapery.{name}" for name in FOUNDATION),
+}
+"""Modules that are not public, whose names our own packages share."""
 
 
 def package_of(name: str) -> str:
@@ -167,7 +173,7 @@ def private_imports(package: str) -> list[str]:
         if package_of(name) == package
         for target in sorted(imports_of(name))
         if package_of(target) != package
-        and target not in PUBLIC
+        and target not in SHARED.union(PACKAGES)
         and package_of(target) not in APPLICATIONS
     ]
 
@@ -185,13 +191,23 @@ def test_applications_import_public_names(package: str) -> None:
         if package_of(name) == package
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.ImportFrom)
-        and node.module in PUBLIC
-        and package_of(node.module) not in APPLICATIONS | FOUNDATION
+        and node.module in PACKAGES
+        and package_of(node.module) not in APPLICATIONS
         for alias in node.names
-        if f"{node.module}.{alias.name}" not in PUBLIC
+        if f"{node.module}.{alias.name}" not in SHARED.union(PACKAGES)
         and alias.name not in import_module(node.module).__all__
     ]
     assert not private
+
+
+def test_every_shared_module_is_used_by_an_application() -> None:
+    used = {
+        target
+        for name in modules()
+        if package_of(name) in APPLICATIONS
+        for target in imports_of(name)
+    }
+    assert not SHARED - used - {f"drapery.{name}" for name in FOUNDATION}
 
 
 def test_every_package_is_installed() -> None:

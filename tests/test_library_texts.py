@@ -13,7 +13,7 @@ ALLOWED = {
     "drapery.cloth.colliders.user_defined": "what the user's own function raises or numba refuses",
     "drapery.jit": "a defect of the installation, for whoever looks for it",
     "drapery.render.backends": "what another package raises while it is imported",
-    "drapery.render.encode.output": "an error of the system without its own text",
+    "drapery.output_files": "an error of the system without its own text",
     "drapery.render.gl.platform": "what OpenGL raises on this machine",
     "drapery.toml_text": "the place of a fault, which only its text has before Python 3.14",
 }

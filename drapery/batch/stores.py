@@ -60,7 +60,7 @@ class LocalStore:
 
     def write(self, name: str, data: bytes) -> None:
         """See `Store`."""
-        from drapery.render import replacing
+        from drapery.output_files import replacing
 
         with replacing(self.prepare(name)) as beside:
             beside.write_bytes(data)

@@ -51,7 +51,8 @@ def run(
 ) -> None:
     """Draw a banner waving in the wind, as a seamless loop."""
     from drapery import iter_frames
-    from drapery.render import check_quality, check_target, save_animation
+    from drapery.render import save_animation
+    from drapery.render.encode import check_quality, check_target
     from drapery.settings import background_colour, frame_count
 
     settings = o.settings_of(words)

@@ -26,7 +26,7 @@ def run(
     """Read a blazon such as 'Azure, a bend Or'; 'drapery show DESIGN --as blazon' writes one."""
     from drapery import draw_face
     from drapery.banner import read_design, write_banner
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
 
     if out is not None:
         check_target(out, "still")

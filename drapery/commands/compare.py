@@ -60,7 +60,7 @@ def run(
     Each --style is a picture of its own.
     """
     from drapery.comparison import compare_variants, draw_variants, is_picture, read_tolerance
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.settings import NAMED_OPTIONS
 
     folders = folders_of(subjects)
@@ -115,7 +115,10 @@ def _write(target: Path, pairs: "list[Comparison]", costs: dict[str, dict[str, f
 
     from drapery.comparison import html_report, pair_entry, pair_facts, pair_sheet, write_text
     from drapery.file_formats import format_of
-    from drapery.render import Animation, quick_png_bytes, replacing, stack_frames
+    from drapery.output_files import replacing
+    from drapery.render import Animation
+    from drapery.render.contact import stack_frames
+    from drapery.render.encode.quick_png import quick_png_bytes
 
     format = format_of(target, *REPORTS, "still", "loop")
     kind = format.kind(timed=False)

@@ -15,7 +15,7 @@ def run() -> None:
     from rich.markup import escape
 
     import drapery
-    from drapery.render import backend_report
+    from drapery.render.doctor import backend_report
 
     console = Console(highlight=False)
     console.print(f"drapery {drapery.__version__}, Python {platform.python_version()}")

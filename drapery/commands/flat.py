@@ -33,7 +33,7 @@ def run(
     from drapery.banner import read_design
     from drapery.errors import OptionError, shown
     from drapery.option import within
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
 
     within("scale", scale, 1, MAX_SCALE, "pixels")
     check_target(out, "still")

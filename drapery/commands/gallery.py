@@ -64,7 +64,7 @@ def run(
 ) -> None:
     """Make the gallery: all scenes, and an index page."""
     from drapery.option import one_of
-    from drapery.render import replacing
+    from drapery.output_files import replacing
     from drapery.scenes import find_scene, scene_names
     from drapery.settings import OPTIONS
 
@@ -87,7 +87,8 @@ def _play(
 ) -> None:
     from dataclasses import replace
 
-    from drapery.render import check_target, save_animation
+    from drapery.render import save_animation
+    from drapery.render.encode import check_target
     from drapery.scenes import scene_frames
     from drapery.settings import frame_count
 

@@ -75,7 +75,8 @@ def write_garment(
 ) -> None:
     """Write a garment as what the ending says. Raises DraperyError."""
     from drapery import draw, iter_frames, save_model
-    from drapery.render import check_target, save_animation
+    from drapery.render import save_animation
+    from drapery.render.encode import check_target
     from drapery.settings import frame_count
 
     kind = check_target(out, "still", "loop", "model", "page").kind()

@@ -41,7 +41,8 @@ def run(
     from drapery.banner import read_design
     from drapery.errors import OptionError, counted
     from drapery.option import within
-    from drapery.render import check_target, make_folder
+    from drapery.output_files import make_folder
+    from drapery.render.encode import check_target
     from drapery.settings import Settings
 
     within("scale", scale, 1, MAX_SCALE)

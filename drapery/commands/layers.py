@@ -39,7 +39,7 @@ def run(
     from drapery.banner import read_design
     from drapery.packs import open_packs
     from drapery.pictures import draw_scenes
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.scenes import exploded_view
     from drapery.settings import OPTIONS, Settings
     from drapery.sheets import steps_sheet

@@ -89,7 +89,7 @@ def run(
 def _wrote_blocks(banners: "tuple[Banner, ...]", out: Path) -> bool:
     """Whether the file is one of blocks, and then was written: standing banners in a row."""
     from drapery.banner import write_blocks
-    from drapery.render import replacing
+    from drapery.output_files import replacing
 
     data = write_blocks(banners, out.suffix)
     if data is None:

@@ -188,7 +188,8 @@ def _check_targets(paths: list[Path], *, is_mural: bool) -> None:
     """Raises OptionError or RenderError for a file that cannot be written."""
     from drapery.errors import OptionError
     from drapery.file_formats import endings_of
-    from drapery.render import check_target, check_writable
+    from drapery.output_files import check_writable
+    from drapery.render.encode import check_target
 
     for path in paths:
         if not is_mural:
@@ -296,7 +297,7 @@ def _matched_mural(
 
 def _save_mural(made: "Mural", paths: list[Path], packs: "Packs", form: str | None) -> None:
     """Print the materials of a mural, and write its files. form: of `.schem`."""
-    from drapery.render import replacing
+    from drapery.output_files import replacing
 
     for item in made.materials():
         print(f"{item.count}\t{item.item}")

@@ -30,7 +30,7 @@ def run(
 ) -> None:
     """List what packs have, lack and override; exit code 1 if something in them is broken."""
     from drapery.packs import describe_packs, open_packs
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.settings import check_format
     from drapery.sheets import contents_sheet
 

@@ -21,7 +21,7 @@ def run(
 ) -> None:
     """Draw a banner, shield, cape or elytra and write one picture."""
     from drapery import draw
-    from drapery.render import check_quality, check_target
+    from drapery.render.encode import check_quality, check_target
 
     options = o.options_of(words)
     check_quality(check_target(out, "still"), quality)

@@ -63,7 +63,8 @@ def _play(
     backend: str,
     style: Sequence[str],
 ) -> None:
-    from drapery.render import check_target, save_animation
+    from drapery.render import save_animation
+    from drapery.render.encode import check_target
     from drapery.scenes import Clip, find_scene, scene_frames
     from drapery.settings import OPTIONS, frame_count
 

@@ -39,7 +39,7 @@ def write_patterns(
     """All patterns in all dyes."""
     from drapery.banner import dye_name
     from drapery.packs import open_packs
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.settings import check_format
     from drapery.sheets import patterns_sheet
 
@@ -63,7 +63,7 @@ def write_rotations(
     **words: Any,
 ) -> None:
     """One design in all sixteen rotations."""
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.sheets import rotations_sheet
 
     settings = o.settings_of(words | {"view": view, "size": size})
@@ -95,7 +95,7 @@ def write_packs(
 ) -> None:
     """One design with our own art and with each of many packs."""
     from drapery.banner import read_design
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.settings import OPTIONS, Settings
     from drapery.sheets import packs_sheet
 
@@ -142,7 +142,7 @@ def write_styles(
     """Designs in every style, or in those of --style, at one size or several."""
     from drapery.banner import read_design
     from drapery.option import within
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.settings import OPTIONS
     from drapery.sheets import styles_sheet
 
@@ -170,7 +170,7 @@ def write_garments(
     backend: o.BackendOption = "auto",
 ) -> None:
     """Garments at four moments each, in their own view and wind."""
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.settings import OPTIONS, Settings
     from drapery.sheets import garments_sheet
 
@@ -199,7 +199,7 @@ def write_players(
     backend: o.BackendOption = "auto",
 ) -> None:
     """Players in all motions, from three sides."""
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.settings import OPTIONS, Settings
     from drapery.sheets import players_sheet
 

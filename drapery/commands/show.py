@@ -79,7 +79,7 @@ def _write(banner: "Banner", out: Path, form: str | None) -> None:
     """The banner as a file: of a form of bytes by its name or the file's ending, or of text."""
     from drapery.banner import binary_forms, write_banner
     from drapery.errors import DesignError
-    from drapery.render import replacing
+    from drapery.output_files import replacing
 
     ending, kinds = out.suffix.lower(), binary_forms().values()
     fits = (kind for kind in kinds if (kind.name == form if form else ending in kind.suffixes))

@@ -29,7 +29,7 @@ def compare_files(words: Sequence[str]) -> int | None:
 
     first, other = map(Path, words[1:3])
     if target is not None:
-        from drapery.render import check_writable
+        from drapery.output_files import check_writable
 
         check_writable(target)
     pair = read_stills(first, other)
@@ -52,7 +52,8 @@ def _target(words: Sequence[str]) -> Path | None:
 
 def _write(target: Path, pair: "StillPair", labels: tuple[str, str]) -> None:
     from drapery.comparison import short_labels
-    from drapery.render import quick_png_of_strips, replacing
+    from drapery.output_files import replacing
+    from drapery.render.encode.quick_png import quick_png_of_strips
 
     strips = pair.sheet_strips(short_labels(*labels))
     with replacing(target) as beside:

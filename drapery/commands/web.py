@@ -37,7 +37,7 @@ def run(
 ) -> None:
     """Write a page with live cloth that needs no server, a gallery, an element or the designer."""
     from drapery.errors import OptionError
-    from drapery.render import check_target
+    from drapery.render.encode import check_target
     from drapery.web.designer_page import write_designer
     from drapery.web.gallery import write_gallery
     from drapery.web.package import write_component

@@ -14,7 +14,9 @@ from drapery.comparison.painting import (
 )
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.picture_pixels import Channels
-from drapery.render import Frame, Pixels, checkered, contact_sheet, enlarge
+from drapery.render import Frame, Pixels, contact_sheet
+from drapery.render.contact_images import checkered
+from drapery.render.resize import enlarge
 
 
 def difference_panel(

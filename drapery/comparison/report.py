@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from drapery.render import Frame, png_bytes, replacing
+from drapery.output_files import replacing
+from drapery.render import Frame, png_bytes
 
 _PAGE = """<!doctype html>
 <html lang="en">

@@ -45,7 +45,7 @@ class StillPair:
 
     def sheet_strips(self, labels: tuple[str, str]) -> "Iterator[Image]":
         """The sheet of `side_by_side` in strips from its top to its bottom, mode RGB."""
-        from drapery.render import contact_strips
+        from drapery.render.contact_images import contact_strips
 
         width, height = self.old.size
         scale = shown_scale(width, height)
@@ -56,7 +56,7 @@ class StillPair:
         """Strips of both pictures and of their difference, enlarged."""
         from PIL import Image
 
-        from drapery.render import checkered
+        from drapery.render.contact_images import checkered
 
         nearest = Image.Resampling.NEAREST
         for area in _strips(self.old.size):

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from drapery.file_formats import format_of
-from drapery.render import Frame, Pixels, contact_sheet, contact_table
+from drapery.render import Frame, Pixels, contact_sheet
+from drapery.render.contact import contact_table
 
 
 @dataclass(frozen=True, eq=False)

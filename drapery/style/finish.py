@@ -15,7 +15,7 @@ import numpy as np
 
 from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
-from drapery.render import IdentityCache
+from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, SurfaceDetail, Texels
 from drapery.style.uv_mapping import UVMapping
 

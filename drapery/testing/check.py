@@ -7,7 +7,7 @@ from pathlib import Path
 
 from drapery.comparison import MAX_FILE, Difference, Picture, Tolerance, measure_pictures
 from drapery.errors import OutputError
-from drapery.render import make_folder, replacing
+from drapery.output_files import make_folder, replacing
 from drapery.testing.explain import LayerNote, explain_change
 from drapery.testing.failures import GoldenUpdate, failure_id, keep_failure
 from drapery.testing.golden import GoldenError, decode, encode, fingerprint

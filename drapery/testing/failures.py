@@ -32,7 +32,8 @@ from drapery.comparison import (
     write_text,
 )
 from drapery.errors import OutputError, counted
-from drapery.render import Pixels, make_folder, png_bytes, replacing
+from drapery.output_files import make_folder, replacing
+from drapery.render import Pixels, png_bytes
 from drapery.testing.golden import decode, encode
 from drapery.testing.naming import ENDINGS
 

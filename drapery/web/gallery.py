@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from drapery.banner import Banner
 from drapery.errors import OptionError
 from drapery.garments import Garment
+from drapery.output_files import replacing
 from drapery.packs import Packs, open_packs
-from drapery.render import replacing
 from drapery.settings import Settings
 from drapery.web.page import (
     FROM_BEHIND,

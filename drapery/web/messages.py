@@ -18,16 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.mesh import Array
-from drapery.render import (
-    Camera,
-    IdentityCache,
-    Light,
-    Model,
-    Topology,
-    bake_normal_maps,
-    composite_layers,
-    make_topology,
-)
+from drapery.render import Camera, Light, Model, Topology, bake_normal_maps, composite_layers
+from drapery.render.drawlist import make_topology
+from drapery.render.identity_cache import IdentityCache
 from drapery.web.panes import Pane, ViewerState
 
 TYPES = {"float32": "<f4", "uint32": "<u4", "int32": "<i4", "uint8": "|u1"}

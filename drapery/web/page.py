@@ -17,8 +17,9 @@ from drapery.garments import (
     make_wearer,
 )
 from drapery.option import Subject
+from drapery.output_files import make_folder, replacing
 from drapery.packs import Packs, open_packs
-from drapery.render import make_folder, replacing, webp_bytes
+from drapery.render import webp_bytes
 from drapery.settings import Placement, Settings, applicable, settled_for
 from drapery.styles import combined_style
 from drapery.web.bundle import WEB, bundled_module

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from drapery.errors import OptionError
 from drapery.file_formats import FORMATS, FileFormat, Kind, format_of, formats_of
-from drapery.render.encode.output import check_writable, replacing
+from drapery.output_files import check_writable, replacing
 
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte

@@ -9,8 +9,8 @@ from types import MappingProxyType
 
 from drapery.errors import OptionError, shown
 from drapery.file_formats import DESTINATIONS, Destination, FileFormat
+from drapery.output_files import replacing
 from drapery.render.encode import check_quality, check_target, save_animation
-from drapery.render.encode.output import replacing
 from drapery.render.pixels import HasPixels
 
 RATES = (20.0, 15.0, 12.0)

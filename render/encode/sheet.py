@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drapery.errors import OutputError
+from drapery.output_files import replacing
 from drapery.render.encode.delays import frame_delays
-from drapery.render.encode.output import replacing
 from drapery.render.encode.png import png_bytes
 from drapery.render.pixels import HasPixels, Pixels
 

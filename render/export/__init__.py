@@ -10,9 +10,9 @@ import numpy as np
 
 from drapery.errors import OptionError
 from drapery.mesh import Array
+from drapery.output_files import replacing
 from drapery.render.camera import Vector
 from drapery.render.encode import check_fps, check_target, writer_of
-from drapery.render.encode.output import replacing
 from drapery.render.export.parts import take_apart
 from drapery.render.scene import Model, RiggedModel, Scene
 

@@ -20,8 +20,8 @@ from drapery.batch.keys import DigestCache
 from drapery.batch.manifest import ManifestError, PictureRequest, numbered, read_manifest
 from drapery.errors import DraperyError, OptionError
 from drapery.garments import find_garment
+from drapery.output_files import replacing
 from drapery.packs import MemoryPack
-from drapery.render.encode.output import replacing
 from drapery.settings import Settings
 from drapery.styles import combined_style
 

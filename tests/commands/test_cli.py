@@ -262,12 +262,10 @@ def test_help_does_not_wait_for_the_kernels() -> None:
 
 
 def test_doctor_prints_the_whole_remedy(drapery: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    from drapery import render
     from drapery.render import doctor
 
-    assert render.backend_report is doctor.backend_report  # imported before it is replaced
     report = [doctor.BackendReport("video", False, "no PyAV", 'pip install "drapery-mc[video]"')]
-    monkeypatch.setattr(render, "backend_report", lambda: report)
+    monkeypatch.setattr(doctor, "backend_report", lambda: report)
     code, out, _ = drapery("doctor")
     assert code == 0 and 'to mend it: pip install "drapery-mc[video]"' in out
 
@@ -284,7 +282,7 @@ def test_the_doctor_names_a_variable_that_turns_the_compiler_off(
 ) -> None:
     from numba import config
 
-    monkeypatch.setattr("drapery.render.backend_report", lambda: [])
+    monkeypatch.setattr("drapery.render.doctor.backend_report", lambda: [])
     monkeypatch.setattr(config, "DISABLE_JIT", 1)
     code, out, _ = drapery("doctor")
     assert code == 0 and "to mend it: NUMBA_DISABLE_JIT is set" in out

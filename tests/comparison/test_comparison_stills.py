@@ -19,7 +19,7 @@ from drapery.comparison import (
     side_by_side,
 )
 from drapery.errors import OptionError
-from drapery.render import quick_png_of_strips
+from drapery.render.encode.quick_png import quick_png_of_strips
 
 
 def saved(pixels: np.ndarray, path: Path) -> Path:
