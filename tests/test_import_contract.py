@@ -94,12 +94,12 @@ KNOWS_NO_SETTINGS = {"cloth", "banner", "packs", "render", "assets"}
 """Packages that others use without Drapery's options."""
 
 SHARED = {
-    *("drapery.pictures", "drapery.render.contact", "drapery.render.contact_images"),
-    *("drapery.render.doctor", "drapery.render.drawlist", "drapery.render.encode"),
-    *("drapery.render.encode.quick_png", "drapery.render.identity_cache", "drapery.render.resize"),
+    *("drapery.pictures", "drapery.render.contact", "drapery.render.doctor"),
+    *("drapery.render.drawlist", "drapery.render.encode", "drapery.render.encode.quick_png"),
+    "drapery.render.identity_cache",
     *(f"drapery.{name}" for name in FOUNDATION),
 }
-"""Modules that are not public, whose names our own packages share."""
+"""Modules that are not public, whose names our applications may import."""
 
 
 def package_of(name: str) -> str:
