@@ -5,7 +5,6 @@
 """
 
 import argparse
-import gzip
 import sys
 import tempfile
 import threading
@@ -23,9 +22,8 @@ from benchmarks.web_page import FLAGS, SETTINGS
 from drapery import Settings
 from drapery.web.designer_page import write_designer
 from drapery.web.wasm.module import is_module_built
+from release.site import loaded_first, sent_bytes
 
-LATER = ("-still.bin", "-fabrics.bin", "wall.bin", "shield.bin", ".d.ts")
-"""The endings of files that a page loads only when they are wanted, or never."""
 READY = "return !!document.querySelector('drapery-designer')?.shadowRoot?.querySelector('.app')"
 EDIT = """
 const done = arguments[0];
@@ -58,15 +56,6 @@ class Quiet(SimpleHTTPRequestHandler):
         pass
 
 
-def sizes(folder: Path) -> dict[str, int]:
-    """The bytes of each file as a server sends it: texts gzipped, the others as they are."""
-    files = {path.name: path.read_bytes() for path in sorted(folder.iterdir())}
-    return {
-        name: len(data) if name.endswith(".bin") else len(gzip.compress(data, 9))
-        for name, data in files.items()
-    }
-
-
 def main() -> int:
     """Print the figures."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -78,12 +67,12 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_designer(folder, settings)
-        found = sizes(folder)
+        found = sent_bytes(folder)
         for file, size in found.items():
             print(f"{file:24} {size:7}")
-        first = sum(size for file, size in found.items() if not file.endswith(LATER))
         print(
-            f"loaded at first: {first} bytes gzipped; with pictures and walls {sum(found.values())}"
+            f"loaded at first: {loaded_first(found)} bytes gzipped;"
+            f" with pictures and walls {sum(found.values())}"
         )
         server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=name))
         threading.Thread(target=server.serve_forever, daemon=True).start()

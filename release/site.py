@@ -3,19 +3,23 @@
 The designer is at its root, the docs, with live cloth, in `docs/`, and what can be installed in
 `packages/`; each leads to the others. All links are relative, so the site works under any path. The
 kernels that pages play must have been compiled before: `python -m drapery.web.wasm.build`.
+
+A designer that loads over 260 kB at first, or a page of one file of over 300 kB, is an error.
 """
 
 import argparse
+import gzip
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from drapery import Settings
+from drapery import Banner, Settings
 from drapery.web.designer_page import PAGE, write_designer
-from drapery.web.page import SIZE
+from drapery.web.page import SIZE, page_text
 from release import packages
 from release.build import ROOT, epoch
 
@@ -29,6 +33,12 @@ LINKS = {
     "docs/reference/live-gallery.html": "Live gallery",
     f"{packages.FOLDER}/index.html": "Install",
 }
+LATER = ("-still.bin", "-fabrics.bin", "wall.bin", "shield.bin", ".d.ts")
+"""The endings of files that a page loads only when they are wanted, or never."""
+MAX_LOAD = 260_000
+"""The most bytes that the designer loads at first."""
+MAX_PAGE = 300_000
+"""The most bytes of a page of one file with a banner."""
 STYLE = """nav {
   display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 0.25rem 1.25rem;
   padding: 0.625rem 1rem 0; max-inline-size: 98rem; margin-inline: auto;
@@ -50,9 +60,35 @@ def build(out: Path, files: Sequence[Path]) -> None:
     command = [sys.executable, "-m", "properdocs", *words]
     subprocess.run(command, cwd=ROOT, env=env, check=True, stdout=sys.stderr)
     packages.publish(files, out)
-    write_designer(out, Settings(size=SIZE))
+    with tempfile.TemporaryDirectory() as name:
+        write_designer(Path(name), Settings(size=SIZE))
+        check_sizes(Path(name), page_text(Banner.parse("white creeper:lime"), Settings()))
+        shutil.copytree(name, out, dirs_exist_ok=True)
     page = out / PAGE
     page.write_text(linked(page.read_text("utf-8")), "utf-8", newline="\n")
+
+
+def sent_bytes(folder: Path) -> dict[str, int]:
+    """The bytes of each file as a server sends it: texts gzipped, the others as they are."""
+    files = {path.name: path.read_bytes() for path in sorted(folder.iterdir())}
+    return {
+        name: len(data) if name.endswith(".bin") else len(gzip.compress(data, 9))
+        for name, data in files.items()
+    }
+
+
+def loaded_first(sizes: Mapping[str, int]) -> int:
+    """The bytes that the designer loads before it shows a banner."""
+    return sum(size for name, size in sizes.items() if not name.endswith(LATER))
+
+
+def check_sizes(designer: Path, page: str) -> None:
+    """Raise SystemExit for a designer's folder or a page of one file that is too large."""
+    first, whole = loaded_first(sent_bytes(designer)), len(page.encode())
+    if first > MAX_LOAD:
+        raise SystemExit(f"the designer loads {first} bytes at first: over {MAX_LOAD}")
+    if whole > MAX_PAGE:
+        raise SystemExit(f"a page of one file has {whole} bytes: over {MAX_PAGE}")
 
 
 def linked(page: str) -> str:

@@ -4,6 +4,7 @@ import io
 import re
 import zipfile
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 from urllib.parse import urljoin
@@ -34,6 +35,22 @@ def test_the_first_page_of_the_docs_has_the_words_that_become_links() -> None:
     texts = re.findall(r'(?m)^\w+_GUIDE = "(.*)"$', (ROOT / "docs/hooks.py").read_text("utf-8"))
     first = (ROOT / "docs/index.md").read_text("utf-8")
     assert len(texts) == 2 and all(text in first for text in texts)
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "page", "fault"),
+    [
+        ("cloth.bin", 260_001, 0, "the designer loads 260001 bytes at first: over 260000"),
+        ("wall.bin", 260_001, 300_001, "a page of one file has 300001 bytes: over 300000"),
+        ("index.html", 260_001, 0, None),  # it is sent gzipped
+    ],
+)
+def test_large_pages_are_refused(
+    tmp_path: Path, name: str, size: int, page: int, fault: str | None
+) -> None:
+    (tmp_path / name).write_bytes(bytes(size))
+    with pytest.raises(SystemExit, match=fault) if fault else nullcontext():
+        site.check_sizes(tmp_path, page * "x")
 
 
 @pytest.fixture(scope="module")

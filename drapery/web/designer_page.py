@@ -2,11 +2,11 @@
 
 import gzip
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from drapery.banner import game_titles
-from drapery.packs import Packs, open_packs
+from drapery.packs import open_packs
 from drapery.settings import Settings
 from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, WEB, beside, bundled_module
 from drapery.web.page import banner_files, check_package, kernel_file, write_files
@@ -29,15 +29,16 @@ def write_designer(folder: Path, settings: Settings) -> None:
 
 
 def _files(settings: Settings) -> Iterator[tuple[str, bytes]]:
-    files = designer_files(open_packs(settings.packs, format=settings.format), settings)
+    packs = open_packs(settings.packs, format=settings.format)
+    files = designer_files(dict(banner_files(packs, settings)))
     yield from files.items()
     yield from module_files(files)
     yield PAGE, (WEB / "designer.html").read_bytes()
 
 
-def designer_files(packs: Packs, settings: Settings) -> dict[str, bytes]:
-    """What the designer loads, by name: the scenes of banners, the kernels, words and languages."""
-    files = {**dict(banner_files(packs, settings)), **kernel_file()}
+def designer_files(scenes: Mapping[str, bytes]) -> dict[str, bytes]:
+    """What the designer loads, by name: these scenes, their kernels, words and languages."""
+    files = {**scenes, **kernel_file(scenes)}
     files["words.bin"] = _packed(search_words())
     for code, language in languages().items():
         dyes, patterns = game_titles(language["game"])

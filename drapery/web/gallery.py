@@ -122,7 +122,7 @@ def gallery_text(settings: Settings, items: Iterable[GalleryItem] = ITEMS) -> st
         if item.design:
             attributes["design"] = item.design
         shown.append((item, attributes, picture_of(subject, own)))
-    return render_template("gallery.html", items=shown, size=SIZE, files=files | kernel_file())
+    return render_template("gallery.html", items=shown, size=SIZE, files=files | kernel_file(files))
 
 
 def _cape_texture() -> NDArray[np.uint8]:

@@ -21,7 +21,9 @@ from drapery.web.page import (
     ARMS,
     POSES,
     WORN,
+    banner_files,
     check_package,
+    kernel_file,
     posed_player,
     seen_settings,
     write_files,
@@ -51,8 +53,9 @@ def write_component(folder: Path, settings: Settings) -> None:
 
 def _files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     packs = open_packs(settings.packs, format=settings.format)
-    own = designer_page.designer_files(packs, settings)
-    files = own | dict(_players(packs, settings))
+    scenes, players = dict(banner_files(packs, settings)), dict(_players(packs, settings))
+    own = designer_page.designer_files(scenes)
+    files = own | players | kernel_file(scenes | players)
     yield from files.items()
     yield MODULE, bundled_module(places=beside(files)).encode()
     yield from designer_page.module_files(files)

@@ -23,8 +23,8 @@ from drapery.render import webp_bytes
 from drapery.settings import Placement, Settings, applicable, settled_for
 from drapery.styles import combined_style
 from drapery.web.bundle import WEB, bundled_module
-from drapery.web.scene_file import fabric_bytes, scene_bytes, split_still
-from drapery.web.wasm.module import read_module
+from drapery.web.scene_file import called_kernels, fabric_bytes, pictured_scene, scene_bytes
+from drapery.web.wasm.module import smallest_module
 
 KERNELS = "cloth.bin"
 PLACEMENTS: tuple[Placement, ...] = ("standing", "wall")
@@ -75,7 +75,7 @@ def page_text(design: Banner | Garment | None, settings: Settings) -> str:
         width=settings.size[0],
         height=settings.size[1],
         picture=picture_of(design, settings),
-        files=shown.files | kernel_file(),
+        files=shown.files | kernel_file(shown.files),
     )
 
 
@@ -107,9 +107,10 @@ def picture_of(design: Banner | Garment | None, settings: Settings) -> str:
     return "data:image/webp;base64," + _base64(webp_bytes(draw(design, settings).pixels, 6))
 
 
-def kernel_file() -> dict[str, bytes]:
-    """The name and content of the compressed WebAssembly module. Raises WasmBuildError."""
-    return {KERNELS: gzip.compress(read_module(), mtime=0)}
+def kernel_file(scenes: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The name and content of the compressed WebAssembly module, with what the plans of these
+    files call. Raises WasmBuildError."""
+    return {KERNELS: gzip.compress(smallest_module(called_kernels(scenes)), mtime=0)}
 
 
 def _scene(design: Banner | None, packs: Packs, settings: Settings) -> bytes:
@@ -175,7 +176,7 @@ def banner_files(packs: Packs, settings: Settings) -> Iterator[tuple[str, bytes]
     fabrics, and of a shield."""
     for placement in PLACEMENTS:
         placed = settings.changed(placement=placement)
-        yield from split_still(scene_bytes(Banner(), packs, placed), placement).items()
+        yield from pictured_scene(placement, Banner(), packs, placed).items()
         yield f"{placement}-fabrics.bin", fabric_bytes(packs, placed)
     kept = {n: v for n, v in settings.given_values.items() if n in applicable(Subject(SHIELD))}
     shield = Settings(**{**kept, "kind": SHIELD})

@@ -15,12 +15,13 @@ plan0, plan1, …: the plan of each panel of cloth, see `drapery.web.wasm`; `gri
 each panel in the same order.
 moving: the number of a plan, the first of the vertices that it moves and their count, and the names
 of its arrays with their places and their light.
-still: a plan that also draws the still of the settings. Its materials, layers and atlas are those
-of the scene, and its atlas is left empty. Without one, noPicture says why.
+still: the name of a file with a plan that also draws the still of the settings. Its materials,
+layers and atlas are those of the scene, and its atlas is left empty. Without one, noPicture says
+why.
 """
 
 import gzip
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, replace
 from functools import partial
 from typing import Any, Literal, get_args
@@ -55,14 +56,16 @@ from drapery.styles import Style
 from drapery.web.messages import MessageEncoder, pack, unpack
 from drapery.web.panes import Pane, ViewerState
 from drapery.web.wasm.module import module_info, read_module
-from drapery.web.wasm.plan import LANES, plans_of, write_plan
+from drapery.web.wasm.plan import LANES, kernels_of, plans_of, write_plan
 
 DAYLIGHTS = tuple(step / 10 for step in range(11))
 SWINGS = np.array(((-0.2, 0.0, 0.0), (0.2, 0.0, 0.0), (0.0, 0.0, 0.7)))
 """How far a light wind moves cloth from its rest position: to both sides, to the front [m]."""
 MAX_SIDE = 4096
 """The longest side of an atlas that every browser with WebGL 2 takes in practice [texels]."""
-
+NO_PICTURE = (
+    "a page of one file holds no pictures; use an element of the package (drapery web --component)"
+)
 
 _Message = tuple[dict[str, Any], dict[str, NDArray[Any]]]
 
@@ -82,8 +85,38 @@ def scene_bytes(
     if isinstance(subject, Garment):
         scene, played = _garment_scene(subject, packs, settings)
     else:
-        scene, played = _body_scene(subject, packs, settings, patterns)
+        scene, played, _ = _body_scene(subject, packs, settings, patterns)
+        scene[0]["noPicture"] = NO_PICTURE
     return _packed(scene, plans_of(played))
+
+
+def pictured_scene(
+    name: str, subject: Banner | None, packs: Packs, settings: Settings
+) -> dict[str, bytes]:
+    """The files `NAME.bin`, what `scene_bytes` makes, and `NAME-still.bin`, which only pictures
+    need; the first says why there is no picture where the second is missing."""
+    scene, played, shown = _body_scene(subject, packs, settings, PATTERN_NAMES)
+    files = {}
+    try:
+        files[f"{name}-still.bin"] = gzip.compress(_still(shown, settings), mtime=0)
+        scene[0]["still"] = f"{name}-still.bin"
+    except OptionError as error:
+        scene[0]["noPicture"] = f"the picture cannot be drawn in a page: {error}"
+    return {f"{name}.bin": _packed(scene, plans_of(played)), **files}
+
+
+def called_kernels(files: Mapping[str, bytes]) -> set[str]:
+    """The names of the kernels that the plans in these files call."""
+    found = set()
+    for name, file in files.items():
+        data = gzip.decompress(file)
+        if name.endswith("-still.bin"):
+            found |= kernels_of(data)
+            continue
+        for part, array in unpack(data)[1].items():
+            if part.startswith("plan"):
+                found |= kernels_of(array.tobytes())
+    return found
 
 
 def fabric_bytes(packs: Packs, settings: Settings) -> bytes:
@@ -105,23 +138,10 @@ def fabric_bytes(packs: Packs, settings: Settings) -> bytes:
     return gzip.compress(pack({}, found), mtime=0)
 
 
-def split_still(scene: bytes, name: str) -> dict[str, bytes]:
-    """The files `NAME.bin`, the scene, and `NAME-still.bin`, which only pictures need, if it has
-    such a part."""
-    header, arrays = unpack(gzip.decompress(scene))
-    still = arrays.pop("still", None)
-    if still is None:
-        return {f"{name}.bin": scene}
-    header["still"] = f"{name}-still.bin"
-    return {
-        f"{name}.bin": gzip.compress(pack(header, arrays), mtime=0),
-        header["still"]: gzip.compress(still.tobytes(), mtime=0),
-    }
-
-
 def _body_scene(
     design: Banner | None, packs: Packs, settings: Settings, patterns: Sequence[str]
-) -> tuple[_Message, PlayedSubject]:
+) -> tuple[_Message, PlayedSubject, Body]:
+    """The scene, what plays in it, and what it shows."""
     body = body_of(design, packs, settings)
     live = LiveBody(body, settings)
     staging = live.staging
@@ -138,11 +158,7 @@ def _body_scene(
     own = {name: value for name, value in given.items() if isinstance(value, str | float | int)}
     scene[0].update(sheets=sheets, turned=settings.turned, flag=flag)
     scene[0].update(views=views, daylights=tints, own=own)
-    try:
-        scene[1]["still"] = _still(shown, settings)
-    except OptionError as error:
-        scene[0]["noPicture"] = f"the picture cannot be drawn in a page: {error}"
-    return scene, played_body(body, settings)
+    return scene, played_body(body, settings), shown
 
 
 def _garment_scene(
@@ -196,13 +212,13 @@ def _packed(scene: _Message, plans: Sequence[bytes]) -> bytes:
     return gzip.compress(pack(header, arrays), mtime=0)
 
 
-def _still(body: Body, settings: Settings) -> NDArray[np.uint8]:
+def _still(body: Body, settings: Settings) -> bytes:
     """The plan of a picture, without its atlas. Raises OptionError for what needs Python."""
     if body.period:
         raise OptionError("animated textures need Python; use packs without them")
     panel = live_picture(body, settings, LANES)
     panel.arrays["atlas"][:] = 0
-    return np.frombuffer(write_plan(panel, module_info(read_module())), np.uint8)
+    return write_plan(panel, module_info(read_module()))
 
 
 def _tint(body: Body, settings: Settings, daylight: float) -> tuple[float, float, float]:

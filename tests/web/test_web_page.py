@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from conftest import Run
 from node_program import NODE, run_node
-from wasm_player import built_module
 
 from drapery import Banner, OptionError
 from drapery.packs import open_packs
@@ -23,7 +22,7 @@ from drapery.web import package, page
 from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, ENTRY, beside, bundled_module
 from drapery.web.gallery import ITEMS, gallery_text
 from drapery.web.messages import unpack
-from drapery.web.scene_file import fabric_bytes, scene_bytes
+from drapery.web.scene_file import fabric_bytes, pictured_scene, scene_bytes
 from drapery.web.tables import languages
 from drapery.web.wasm.plan import plans_of
 
@@ -119,16 +118,19 @@ def test_a_scene_has_the_cameras_and_the_light_of_python(playable: Playable) -> 
 def test_a_scene_says_why_it_has_no_picture(
     playable: Playable, options: dict[str, object], reason: str
 ) -> None:
-    text = gzip.decompress(scene_bytes(DESIGN, open_packs(()), playable(size=SIZE, **options), []))
-    header, arrays = unpack(text)
-    assert reason in header["noPicture"] and "still" not in arrays
+    files = pictured_scene("wall", DESIGN, open_packs(()), playable(size=SIZE, **options))
+    assert list(files) == ["wall.bin"]
+    header, _ = unpack(gzip.decompress(files["wall.bin"]))
+    assert reason in header["noPicture"] and "still" not in header
 
 
 def test_a_page_has_all_that_it_needs(playable: Playable) -> None:
     text = page.page_text(DESIGN, playable(size=SIZE))
-    kernels = len(base64.b64encode(gzip.compress(built_module(), mtime=0)))
-    assert len(text) - kernels < 150_000
-    assert set(files_of(text)) == {"standing.bin", "cloth.bin"}
+    assert len(text) < 300_000
+    files = files_of(text)
+    assert set(files) == {"standing.bin", "cloth.bin"}
+    header, _ = unpack(files["standing.bin"])
+    assert "drapery web --component" in header["noPicture"] and "still" not in header
     assert 'design="white creeper:lime border:black"' in text
     assert re.findall(r'(?:src|href)="([^"]{,22})', text) == ["data:image/webp;base64"]
     assert page.page_text(DESIGN, playable(size=SIZE)) == text
@@ -159,9 +161,9 @@ def test_a_package_names_its_files(
     inline = dict(
         re.findall(r'^  "([\w-]+\.bin)": "(.*)",$', made["drapery-inline.js"].decode(), re.M)
     )
-    assert {name: base64.b64decode(text) for name, text in inline.items()} == {
-        name: made[name] for name in files - players
-    }
+    held = {name: base64.b64decode(text) for name, text in inline.items()}
+    assert len(held.pop("cloth.bin")) < len(made["cloth.bin"]), "it has no players"
+    assert held == {name: made[name] for name in files - players - {"cloth.bin"}}
 
 
 @pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")

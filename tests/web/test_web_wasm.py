@@ -24,8 +24,8 @@ from drapery.scenes import LiveBody, live_panels, live_picture, played_body, sti
 from drapery.scenes.bodies import cloth_spec, forces_of, wind_of
 from drapery.style import Body, body_of
 from drapery.web.wasm import build
-from drapery.web.wasm.module import module_info
-from drapery.web.wasm.plan import LANES, plans_of, split_plan, write_plan
+from drapery.web.wasm.module import module_info, smallest_module
+from drapery.web.wasm.plan import LANES, kernels_of, plans_of, split_plan, write_plan
 
 NODE = shutil.which("node")
 SCRIPT = Path(__file__).parents[2] / "drapery" / "web" / "wasm" / "cloth.js"
@@ -259,8 +259,11 @@ console.log(JSON.stringify([...found, refused]));
 @pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
 def test_javascript_plays_many_cloths_in_one_memory(tmp_path: Path) -> None:
     settings = quick_settings()
-    (tmp_path / "module").write_bytes(built_module())
-    (tmp_path / "plan").write_bytes(plan_of(settings))
+    plan = plan_of(settings)
+    module = smallest_module(kernels_of(plan))
+    assert len(module) < len(built_module()), "it has no kernels of pictures and players"
+    (tmp_path / "module").write_bytes(module)
+    (tmp_path / "plan").write_bytes(plan)
     done = subprocess.run(
         [str(NODE), "--input-type=module", "-", tmp_path / "module", tmp_path / "plan"],
         input=PLAY.replace("SCRIPT", SCRIPT.as_uri()),

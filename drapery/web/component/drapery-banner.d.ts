@@ -43,7 +43,8 @@ export class DraperyBanner extends HTMLElement {
   snapshot(): Promise<Blob>;
   /** A film of the moving cloth, WebM or MP4 by the browser; 4 seconds unless given. */
   record(seconds?: number): Promise<Blob>;
-  /** The pixels that `drapery render` draws of the design with the options of the package. */
+  /** The pixels that `drapery render` draws of the design with the options of the package; a page of
+   * one file has none. */
   picture(): Promise<ImageData>;
 }
 

@@ -178,10 +178,9 @@ export class Player extends View {
   // its own moves for the time of these options.
   async picture() {
     const { atlas } = this.arrays;
-    const still = this.arrays.still ?? (this.header.still && (await fileBytes(this.header.still)));
-    if (!still) throw new Error(`drapery: ${this.header.noPicture}`);
+    if (!this.header.still) throw new Error(`drapery: ${this.header.noPicture}`);
     const [materials, layers] = this.tables;
-    const cloth = await Cloth.load(await fileBytes(MODULE), still);
+    const cloth = await Cloth.load(...(await Promise.all([MODULE, this.header.still].map(fileBytes))));
     try {
       cloth.step(cloth.info.steps);
       const texels = new Uint32Array(atlas.buffer, atlas.byteOffset, atlas.length / 4);

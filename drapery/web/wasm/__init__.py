@@ -1,7 +1,8 @@
 """The kernels of the simulation as a WebAssembly module, and how a page plays them.
 
 No physics is written in JavaScript: `python -m drapery.web.wasm.build` compiles the kernels of
-`drapery.cloth` from their Python source to one module, and a page plays plans, one for each panel
+`drapery.cloth` from their Python source to one module, of which a page holds the kernels that it
+calls (`drapery.web.wasm.module.smallest_module`). A page plays plans, one for each panel
 of cloth. A plan is one binary file that Python writes: a picture of the memory that the kernels
 read. `cloth.js` is an ES module without dependencies; it copies plans into the module's memory and
 calls the kernels.

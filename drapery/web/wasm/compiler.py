@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
 
+from drapery.web.wasm.binary import custom_section, function_names, trimmed
 from drapery.web.wasm.image import FIRST_SLOT, SLOT, WasmBuildError
 
 TRIPLE = "wasm32-unknown-unknown"
@@ -42,7 +43,8 @@ class ExportedKernel(NamedTuple):
 
 
 def compile_module(kernels: list[ExportedKernel], info: Mapping[str, Any], folder: Path) -> bytes:
-    """The module with these kernels. info: JSON for its section `drapery`.
+    """The module with these kernels. info: JSON for its section `drapery`, to which the numbers of
+    the functions that each kernel needs are added, as `functions`.
 
     folder: for files on the way. numba must run with NUMBA_OPT=0 and without kernels in its cache.
     Raises WasmBuildError.
@@ -64,14 +66,28 @@ def compile_module(kernels: list[ExportedKernel], info: Mapping[str, Any], folde
     runtime = Path(__file__).with_name("runtime.c")
     target = ["-target", "wasm32-freestanding", "-mcpu=generic+simd128+bulk_memory"]
     _zig(folder, "cc", *target, "-O2", "-fno-builtin", "-c", str(runtime), "-o", "runtime.o")
-    exports = [f"--export={kernel.name}" for kernel in kernels]
-    linked = [*exports, "--export=reserve", "--export-memory", f"-zstack-size={STACK}"]
+    module = _linked(folder, [kernel.name for kernel in kernels])
+    numbers = function_names(module)
+    needed = {
+        kernel.name: sorted(
+            numbers[name] for name in function_names(_linked(folder, [kernel.name]))
+        )
+        for kernel in kernels
+    }
+    whole_info = {**info, "functions": needed}
+    plain = trimmed(module, [*needed, "reserve"], range(len(numbers)))
+    return plain + custom_section("drapery", json.dumps(whole_info).encode())
+
+
+def _linked(folder: Path, exports: list[str]) -> bytes:
+    """The module with these kernels, and the names of its functions."""
+    named = [*(f"--export={name}" for name in exports), "--export=reserve"]
     _zig(
         folder,
-        *("wasm-ld", "--no-entry", "--gc-sections", "--strip-all", *linked),
-        *("kernels.o", "runtime.o", "-o", "kernels.wasm"),
+        *("wasm-ld", "--no-entry", "--gc-sections", "--export-memory", f"-zstack-size={STACK}"),
+        *(*named, "kernels.o", "runtime.o", "-o", "kernels.wasm"),
     )
-    return (folder / "kernels.wasm").read_bytes() + section("drapery", json.dumps(info).encode())
+    return (folder / "kernels.wasm").read_bytes()
 
 
 def _optimize(code: Any, machine: Any) -> None:
@@ -173,15 +189,3 @@ def _keep_only(code: Any, exported: set[str]) -> None:
     for function in code.functions:
         if not function.is_declaration:
             function.linkage = "external" if function.name in exported else "internal"
-
-
-def section(name: str, content: bytes) -> bytes:
-    """A custom section of a module."""
-    body = _length(len(name.encode())) + name.encode() + content
-    return b"\0" + _length(len(body)) + body
-
-
-def _length(number: int) -> bytes:
-    """A number as LEB128."""
-    low, rest = number & 127, number >> 7
-    return bytes([low | 128]) + _length(rest) if rest else bytes([low])

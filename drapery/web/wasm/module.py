@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from collections.abc import Collection
 from functools import cache
 from itertools import chain
 from pathlib import Path
@@ -12,10 +13,11 @@ import drapery.cloth
 import drapery.render
 import drapery.style
 from drapery.jit_cache import kernel_cache_status
+from drapery.web.wasm.binary import custom_content, custom_section, trimmed
 from drapery.web.wasm.image import WasmBuildError
 
 HERE = Path(__file__).parent
-BUILDERS = "compiler.py", "compiling.py", "image.py", "runtime.c"
+BUILDERS = "binary.py", "compiler.py", "compiling.py", "image.py", "runtime.c"
 COMMON = "elementary.py", "jit.py", "jit_calls.py"
 """Files of Drapery's own folder that kernels are compiled with."""
 
@@ -62,26 +64,19 @@ def read_module() -> bytes:
 
 
 def module_info(module: bytes) -> dict[str, Any]:
-    """What the build wrote into the module: `sources`, and `kernels` by name with their types."""
-    at = 8
-    while at < len(module):
-        kind, at = module[at], at + 1
-        size, at = _length(module, at)
-        if kind == 0:
-            length, start = _length(module, at)
-            if module[start : start + length] == b"drapery":
-                found: dict[str, Any] = json.loads(module[start + length : at + size])
-                return found
-        at += size
-    raise WasmBuildError("the WebAssembly module was not built by drapery.web.wasm.build")
+    """What the build wrote into the module: `sources`, `kernels` by name with their types, and
+    `functions`, the numbers of those that each kernel needs."""
+    content = custom_content(module, "drapery")
+    if content is None:
+        raise WasmBuildError("the WebAssembly module was not built by drapery.web.wasm.build")
+    found: dict[str, Any] = json.loads(content)
+    return found
 
 
-def _length(module: bytes, at: int) -> tuple[int, int]:
-    """A number in LEB128, and where it ends."""
-    number = shift = 0
-    while True:
-        byte, at = module[at], at + 1
-        number |= (byte & 127) << shift
-        shift += 7
-        if byte < 128:
-            return number, at
+def smallest_module(kernels: Collection[str]) -> bytes:
+    """The module with only these kernels. Raises WasmBuildError where it is not built."""
+    module = read_module()
+    info = module_info(module)
+    needed = {number for name in kernels for number in info["functions"][name]}
+    named = json.dumps({"sources": info["sources"]}).encode()
+    return trimmed(module, {*kernels, "reserve"}, needed) + custom_section("drapery", named)

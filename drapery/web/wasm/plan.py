@@ -70,3 +70,11 @@ def split_plan(plan: bytes) -> tuple[dict[str, Any], bytes]:
     """The header of a plan, and its image without the zeros at its end."""
     start = 4 + int.from_bytes(plan[:4], "little")
     return json.loads(plan[4:start]), plan[start:]
+
+
+def kernels_of(plan: bytes) -> set[str]:
+    """The names of the kernels that a plan calls."""
+    header, _ = split_plan(plan)
+    return {name for name, *_ in header["calls"].values()} | {
+        name for _, name in header["functions"]
+    }
