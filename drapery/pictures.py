@@ -109,7 +109,7 @@ def save_model(
     Raises DesignError if `banner` is something else, OptionError, PackError or OutputError.
     """
     from drapery.render.encode import check_target
-    from drapery.render.export import save_model as save_scenes
+    from drapery.render.export import save_scenes
     from drapery.scenes.subjects import loop, still
 
     design, chosen = _checked(banner, settings, options, "model")

@@ -66,7 +66,7 @@ if TYPE_CHECKING:
     )
     from drapery.render.encode.png import apng_bytes as apng_bytes, png_bytes as png_bytes
     from drapery.render.encode.webp import webp_bytes as webp_bytes
-    from drapery.render.export import save_model as save_model
+    from drapery.render.export import save_scenes as save_scenes
     from drapery.render.flatten import composite_layers as composite_layers
     from drapery.render.frame import Animation as Animation, Frame as Frame, Pixels as Pixels
     from drapery.render.light import (

@@ -10,9 +10,9 @@ import pytest
 from cost import limited_cost
 from PIL import Image
 
-from drapery.comparison.picture import decode_picture as compared_picture
+from drapery.comparison import decode_picture
 from drapery.errors import OptionError
-from drapery.match import decode_picture
+from drapery.match import decode_pixels
 from drapery.picture_file import MAX_SCANS, opened_picture
 
 
@@ -31,11 +31,11 @@ def of_scans(count: int, side: int = 64) -> bytes:
 
 
 def test_a_jpeg_of_many_scans_is_refused_before_it_is_decoded() -> None:
-    assert decode_picture(of_scans(MAX_SCANS)).shape == (64, 64, 4)
+    assert decode_pixels(of_scans(MAX_SCANS)).shape == (64, 64, 4)
     with pytest.raises(OptionError, match="the picture is a JPEG of over 100 scans; save it"):
-        decode_picture(of_scans(MAX_SCANS + 1))
+        decode_pixels(of_scans(MAX_SCANS + 1))
     with limited_cost(2), pytest.raises(OptionError, match="over 100 scans"):
-        decode_picture(of_scans(3000, 1024))
+        decode_pixels(of_scans(3000, 1024))
 
 
 def test_a_broken_picture_writes_nothing_beside_its_error(
@@ -76,19 +76,19 @@ def test_a_gif_with_a_frame_outside_of_its_picture_is_refused_before_it_is_decod
     for sides in ((13_000, 13_000, 8, 8), (0, 0, 9, 8), (0, 1, 8, 8)):
         changed = data[: frame + 1] + struct.pack("<4H", *sides) + data[frame + 9 :]
         with pytest.raises(OptionError, match="a frame outside of its 8 x 8 px; save it again"):
-            compared_picture(changed, "large.gif")
+            decode_picture(changed, "large.gif")
 
 
 def test_bytes_that_look_like_scans_are_none() -> None:
     comment = b"\xff\xfe" + struct.pack(">H", 2 + 1000) + b"\xff\xda" * 500
     data = encoded("JPEG")
-    assert decode_picture(data[:2] + comment + data[2:] + b"\xff\xda" * 500).shape == (64, 64, 4)
+    assert decode_pixels(data[:2] + comment + data[2:] + b"\xff\xda" * 500).shape == (64, 64, 4)
 
 
 @pytest.mark.parametrize("options", [{}, {"lossless": True}, {"exif": b"Exif\0\0"}])
 def test_a_webp_file_is_refused_by_its_header(options: dict[str, object]) -> None:
     data = encoded("WEBP", **options)
-    assert decode_picture(data).shape == (64, 64, 4)
+    assert decode_pixels(data).shape == (64, 64, 4)
     with (
         pytest.raises(OptionError, match=r"x is 64 x 64 px; at most 0 million pixels are read"),
         opened_picture(data, "x", max_pixels=1000),

@@ -1,5 +1,7 @@
 """The public API: every change is announced, and every name is documented."""
 
+from importlib import import_module
+
 from public_api import (
     PACKAGES,
     ROOT,
@@ -46,3 +48,12 @@ def test_every_public_package_is_in_the_reference_and_in_the_text_of_drapery() -
     nav = (ROOT / "mkdocs.yml").read_text("utf-8")
     assert all(f"reference/python/{page}.md" in nav for page in pages)
     assert all(f"`{name}`" in str(drapery.__doc__) for name in PACKAGES if name != "drapery")
+
+
+def test_a_public_name_has_one_meaning() -> None:
+    meanings: dict[str, list[object]] = {}
+    for package in map(import_module, PACKAGES):
+        for name in package.__all__:
+            meanings.setdefault(name, []).append(getattr(package, name))
+    several = [name for name, found in meanings.items() if any(each != found[0] for each in found)]
+    assert not several

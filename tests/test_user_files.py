@@ -12,12 +12,12 @@ from drapery import Banner, draw, read_designs
 from drapery.batch.keys import digest
 from drapery.batch.manifest import ManifestError, read_manifest
 from drapery.cloth import from_mesh, load_mesh
-from drapery.comparison.picture import read_picture as read_compared_picture
+from drapery.comparison import read_picture
 from drapery.errors import DraperyError
 from drapery.garments import Garment, GarmentMesh, check_skin
 from drapery.garments.meshes import read_stiff_mesh
 from drapery.garments.motions import find_motion
-from drapery.match import read_picture
+from drapery.match import read_pixels
 from drapery.packs import open_packs
 from drapery.scenes.wind_script import read_script
 from drapery.styles import Style
@@ -52,8 +52,8 @@ DOORS: dict[str, tuple[str, Callable[[Path], Any]]] = {
     "cases in YAML": (".yaml", read_cases),
     "manifest": (".csv", read_manifest),
     "manifest in YAML": (".yaml", read_manifest),
-    "picture": (".jpg", read_picture),
-    "compared picture": (".png", read_compared_picture),
+    "picture": (".jpg", read_pixels),
+    "compared picture": (".png", read_picture),
     "digest": (".png", digest),
 }
 

@@ -8,7 +8,7 @@ import numpy as np
 from assets.drawing.beetle import beetle
 from assets.drawing.fox import CUBE, fox
 from drapery.banner.packs import open_packs
-from drapery.render.export import save_model
+from drapery.render.export import save_scenes
 from drapery.render.scene import Model, Scene
 from drapery.render.views import frame_view
 from drapery.style.block_world import blocks
@@ -35,7 +35,7 @@ def main() -> None:
     for name, models in creatures().items():
         points = np.concatenate([model.mesh.positions for model in models])
         scene = Scene(models, frame_view("hero", points, 1.0), (64, 64))
-        save_model(scene, FILES / f"{name}.glb")
+        save_scenes(scene, FILES / f"{name}.glb")
 
 
 if __name__ == "__main__":

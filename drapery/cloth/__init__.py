@@ -40,12 +40,12 @@ if TYPE_CHECKING:
         Sphere as Sphere,
         TriangleMesh as TriangleMesh,
         Voxels as Voxels,
+        at_rest as at_rest,
         check_collider as check_collider,
         height_collider as height_collider,
         load_mesh as load_mesh,
         mesh_collider as mesh_collider,
         rotation_about as rotation_about,
-        still as still,
         straight as straight,
         swinging as swinging,
     )

@@ -10,7 +10,7 @@ from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.colliders.collider import Collider
 from drapery.cloth.colliders.collision_world import THINNEST, CollisionWorld
-from drapery.cloth.colliders.pose import still
+from drapery.cloth.colliders.pose import at_rest
 from drapery.cloth.colliders.sampling import sample_points
 from drapery.cloth.colliders.shapes import Box, Plane, Shape
 from drapery.cloth.contact.box_data import NOTHING, BoxColliders, box_colliders
@@ -107,7 +107,7 @@ def _radius_at_pins(cloth: Cloth, collisions: Collisions) -> float:
     cell = float(lengths[beside].min())
     pins = cloth.rest_positions[pinned]
     gaps = [
-        _gaps(pins, collider.shape) for collider in collisions.colliders if collider.path is still
+        _gaps(pins, collider.shape) for collider in collisions.colliders if collider.path is at_rest
     ]
     outside = np.concatenate([[np.inf], *gaps])
     nearest = float(outside[outside >= 0].min())

@@ -122,7 +122,7 @@ def run(
 
     Ctrl-C keeps the best that were found, except for a photo.
     """
-    from drapery.match import read_picture
+    from drapery.match import read_pixels
     from drapery.packs import open_packs
 
     is_photo = photo or corners is not None
@@ -134,7 +134,7 @@ def run(
     size = None if mural is None else _checked_size(mural)
     _check_targets(out or [], is_mural=size is not None)
     opened = open_packs(tuple(packs or ()), format=format)
-    pixels = read_picture(picture)
+    pixels = read_pixels(picture)
     framing = {
         "fit": fit,
         "crop": _box(crop),
@@ -152,7 +152,7 @@ def run(
         if is_photo:
             face, found = _seen_in_photo(pixels, corners, opened, wanted)
         else:
-            shown = None if mask is None else read_picture(mask)
+            shown = None if mask is None else read_pixels(mask)
             face, found = _seen_in_picture(
                 pixels, opened, {**framing, "mask": shown, "weighting": weighting}, wanted
             )

@@ -1,8 +1,8 @@
 """From a picture to the banner that looks most like it.
 
-    from drapery.match import fit_picture, match, read_picture
+    from drapery.match import fit_picture, match, read_pixels
 
-    picture = fit_picture(read_picture("flag.png"))
+    picture = fit_picture(read_pixels("flag.png"))
     best, *others = match(picture.face, weights=picture.weights)
     print(best.banner, best.error)
 
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
         PICTURE_FORMATS as PICTURE_FORMATS,
         WEIGHTINGS as WEIGHTINGS,
         PictureFace as PictureFace,
-        decode_picture as decode_picture,
+        decode_pixels as decode_pixels,
         fit_mural as fit_mural,
         fit_picture as fit_picture,
         nearest_dye as nearest_dye,
-        read_picture as read_picture,
+        read_pixels as read_pixels,
     )
     from drapery.match.search import (
         EFFORT as EFFORT,

@@ -59,7 +59,7 @@ class PictureFace:
     weights: NDArray[np.float64]
 
 
-def read_picture(path: str | Path) -> Texels:
+def read_pixels(path: str | Path) -> Texels:
     """The pixels of a PNG, JPEG or WebP file, upright, uint8 [H, W, 4].
 
     Raises OptionError for a file that cannot be read, is not such a picture, or is too large.
@@ -67,10 +67,10 @@ def read_picture(path: str | Path) -> Texels:
     name = Path(path).name
     remedy, shorter = "give a picture", "shrink it"
     data = read_user_file(path, MAX_BYTES, name=name, remedy=remedy, shorter=shorter)
-    return decode_picture(data, name)
+    return decode_pixels(data, name)
 
 
-def decode_picture(data: bytes, name: str = "the picture") -> Texels:
+def decode_pixels(data: bytes, name: str = "the picture") -> Texels:
     """The pixels of the bytes of a PNG, JPEG or WebP file, upright, uint8 [H, W, 4].
 
     name: the picture's name in errors. Raises OptionError.

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
         texture_areas as texture_areas,
     )
     from drapery.scenes.parameters import SceneParameters as SceneParameters
-    from drapery.scenes.picture_grid import Picture as Picture, PictureGrid as PictureGrid
+    from drapery.scenes.picture_grid import ClipPicture as ClipPicture, PictureGrid as PictureGrid
     from drapery.scenes.playing import (
         LiveKernel as LiveKernel,
         LivePanel as LivePanel,

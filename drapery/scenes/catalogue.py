@@ -14,7 +14,7 @@ from typing import get_type_hints
 
 from drapery.errors import OptionError, shown
 from drapery.scenes.parameters import SceneParameters, read_parameters
-from drapery.scenes.picture_grid import Picture
+from drapery.scenes.picture_grid import ClipPicture
 
 _PACKAGE = __name__.rpartition(".")[0]
 
@@ -48,9 +48,9 @@ class SceneEntry:
         kind: type[SceneParameters] = get_type_hints(self.module.play)["parameters"]
         return read_parameters(kind, words or {}, self.name)
 
-    def play(self, parameters: SceneParameters, clip: Clip) -> Iterator[Picture]:
+    def play(self, parameters: SceneParameters, clip: Clip) -> Iterator[ClipPicture]:
         """One picture for each frame of the clip."""
-        pictures: Iterator[Picture] = self.module.play(parameters, clip)
+        pictures: Iterator[ClipPicture] = self.module.play(parameters, clip)
         return pictures
 
 

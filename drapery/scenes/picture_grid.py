@@ -21,7 +21,7 @@ class PictureGrid:
     columns: int = 2
 
 
-Picture = Scene | Frame | PictureGrid
+ClipPicture = Scene | Frame | PictureGrid
 """One picture of a ready-made scene: to be drawn, drawn already, or several side by side."""
 
 
@@ -30,7 +30,7 @@ def panel_size(size: tuple[int, int], columns: int, rows: int = 1) -> tuple[int,
     return max(1, size[0] // columns), max(1, size[1] // rows)
 
 
-def drawn(picture: Picture, draw_scene: Callable[[Scene], Frame]) -> Frame:
+def drawn(picture: ClipPicture, draw_scene: Callable[[Scene], Frame]) -> Frame:
     """The picture as pixels."""
     if isinstance(picture, PictureGrid):
         frames = [drawn(part, draw_scene) for part in picture.pictures]

@@ -14,15 +14,15 @@ from drapery.render.backends import DrawScene
 from drapery.render.frame import Frame
 from drapery.render.light import STUDIO_LIGHT, UNLIT
 from drapery.render.scene import Model, Scene
-from drapery.scenes.picture_grid import Picture, PictureGrid
+from drapery.scenes.picture_grid import ClipPicture, PictureGrid
 from drapery.style.sheet import Sheet
 from drapery.style.tailoring import ClothModel
 from drapery.styles.style import Style
 
 
 def styled_pictures(
-    pictures: Iterable[Picture], style: Style, draw_scene: DrawScene
-) -> Iterator[Picture]:
+    pictures: Iterable[ClipPicture], style: Style, draw_scene: DrawScene
+) -> Iterator[ClipPicture]:
     """The pictures of a clip in a style, one by one.
 
     Motion and shape steps change rectangles of cloth, material steps all cloth, and picture steps
@@ -48,7 +48,7 @@ def styled_pictures(
     return _together([*shaped], style, draw_scene)
 
 
-def _warn_of_idle_steps(first: Picture, style: Style) -> None:
+def _warn_of_idle_steps(first: ClipPicture, style: Style) -> None:
     """Say which steps change nothing in a clip that begins with this picture."""
     scenes = _scenes(first)
     if not scenes and any(step.kind != "picture" for step in style.steps):
@@ -66,7 +66,7 @@ def _warn_of_idle_steps(first: Picture, style: Style) -> None:
         )
 
 
-def _single(picture: Picture) -> Scene | Frame:
+def _single(picture: ClipPicture) -> Scene | Frame:
     if isinstance(picture, PictureGrid):
         raise OptionError("a clip mixes grids and pictures; a style over time needs one kind")
     return picture
@@ -78,7 +78,7 @@ def _sheets(scene: Scene) -> list[Sheet]:
     return [model.sheet for model in models if model.sheet is not None]
 
 
-def _each(picture: Picture, change: Callable[[Scene], Scene | Frame]) -> Picture:
+def _each(picture: ClipPicture, change: Callable[[Scene], Scene | Frame]) -> ClipPicture:
     """The picture with all of its scenes changed."""
     if isinstance(picture, PictureGrid):
         parts = (part if isinstance(part, Frame) else change(part) for part in picture.pictures)
@@ -86,24 +86,26 @@ def _each(picture: Picture, change: Callable[[Scene], Scene | Frame]) -> Picture
     return picture if isinstance(picture, Frame) else change(picture)
 
 
-def _every(picture: Picture, draw: Callable[[Scene | Frame], Frame]) -> Picture:
+def _every(picture: ClipPicture, draw: Callable[[Scene | Frame], Frame]) -> ClipPicture:
     """The picture with all of its scenes and frames drawn."""
     if isinstance(picture, PictureGrid):
         return replace(picture, pictures=tuple(map(draw, picture.pictures)))
     return draw(picture)
 
 
-def _parts(picture: Picture) -> tuple[Scene | Frame, ...]:
+def _parts(picture: ClipPicture) -> tuple[Scene | Frame, ...]:
     """The pictures in a grid, or the one picture."""
     return picture.pictures if isinstance(picture, PictureGrid) else (picture,)
 
 
-def _scenes(picture: Picture) -> list[Scene]:
+def _scenes(picture: ClipPicture) -> list[Scene]:
     """The scenes in a picture, in the order in which `_each` changes them."""
     return [part for part in _parts(picture) if isinstance(part, Scene)]
 
 
-def _together(pictures: list[Picture], style: Style, draw_scene: DrawScene) -> Iterator[Picture]:
+def _together(
+    pictures: list[ClipPicture], style: Style, draw_scene: DrawScene
+) -> Iterator[ClipPicture]:
     """Each place of a grid of pictures is a loop."""
     loops = zip(*map(_parts, pictures), strict=True)
     drawn = [style.draw_loop(scenes, draw_scene) for scenes in loops]
@@ -144,7 +146,7 @@ def _shaped(sheet: Sheet, style: Style) -> Mesh:
     return replace(meshes[0], positions=positions, normals=np.stack([m.normals for m in meshes]))
 
 
-def _moved(pictures: list[Picture], style: Style) -> Iterator[Picture]:
+def _moved(pictures: list[ClipPicture], style: Style) -> Iterator[ClipPicture]:
     """The pictures with the motion steps applied to each rectangle of cloth over all of them."""
     frames = [_scenes(picture) for picture in pictures]
     places = [_move_models(scenes, style) for scenes in zip(*frames, strict=True)]

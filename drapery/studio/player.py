@@ -11,8 +11,8 @@ from drapery.packs import Packs
 from drapery.render import Scene
 from drapery.scenes import (
     Clip,
+    ClipPicture,
     Dressed,
-    Picture,
     PictureGrid,
     Schedule,
     find_scene,
@@ -39,8 +39,8 @@ class Show:
 
     name: str
     clip: Clip
-    play: Callable[[Clip, Callable[[int, int], object]], Iterator[Picture]]
-    first: Callable[[Clip], Picture] | None = None
+    play: Callable[[Clip, Callable[[int, int], object]], Iterator[ClipPicture]]
+    first: Callable[[Clip], ClipPicture] | None = None
 
 
 def scene_show(scene: SceneChoice) -> Show:
@@ -53,11 +53,11 @@ def scene_show(scene: SceneChoice) -> Show:
 def garment_show(garment: Garment, packs: Packs, settings: Settings) -> Show:
     """A garment: first at rest, then its seamless loop."""
 
-    def play(clip: Clip, on_moment: Callable[[int, int], object]) -> Iterator[Picture]:
+    def play(clip: Clip, on_moment: Callable[[int, int], object]) -> Iterator[ClipPicture]:
         settings = _sized(clip)
         return loop(garment, packs, settings, clip.count, clip.fps, on_moment)
 
-    def first(clip: Clip) -> Picture:
+    def first(clip: Clip) -> ClipPicture:
         dressed = Dressed(garment, packs, _sized(clip))
         starts = [each.start[None] for each in dressed.cloths]
         return next(dressed.scenes(starts, Schedule.at([0.0], dressed.step)))
@@ -150,7 +150,7 @@ class Player:
             yield shown
 
 
-def _changing_bytes(picture: Picture) -> int:
+def _changing_bytes(picture: ClipPicture) -> int:
     """The size of what may differ from moment to moment; textures are the same arrays [bytes]."""
     if isinstance(picture, PictureGrid):
         return sum(map(_changing_bytes, picture.pictures))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drapery.render import UNLIT, Camera, Frame, Material, Mesh, Model, Scene, TextureLayer
-from drapery.scenes import Picture, PictureGrid
+from drapery.scenes import ClipPicture, PictureGrid
 
 Framing = Callable[[float], Camera]
 """A callable that gives the camera for a picture of this aspect ratio, width / height."""
@@ -43,7 +43,7 @@ class ViewerState:
     time: float = 0.0
 
 
-def shown_picture(picture: Picture) -> ViewerState:
+def shown_picture(picture: ClipPicture) -> ViewerState:
     """A picture of a ready-made scene."""
     if isinstance(picture, PictureGrid):
         panes = map(_pane, picture.pictures, picture.labels)

@@ -17,7 +17,7 @@ from drapery.render.export.parts import take_apart
 from drapery.render.scene import Model, RiggedModel, Scene
 
 
-def save_model(
+def save_scenes(
     scenes: Scene | Iterable[Scene],
     path: str | Path,
     *,
@@ -48,7 +48,7 @@ def _checked(scene: Scene) -> Scene:
     """Refuse what is no scene. A file of several scenes is a loop, so models need one to be in."""
     if not isinstance(scene, Scene):
         raise OptionError(
-            f"save_model writes scenes, not a {type(scene).__name__}: put models into one by "
+            f"save_scenes writes scenes, not a {type(scene).__name__}: put models into one by "
             "`Scene((model,), camera)`"
         )
     return scene

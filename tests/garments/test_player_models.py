@@ -13,7 +13,7 @@ from drapery import iter_frames, save_model
 from drapery.cloth.colliders import rotation_about
 from drapery.garments import dressed_player, make_wearer
 from drapery.packs import open_packs
-from drapery.render.export import save_model as save_scenes
+from drapery.render.export import save_scenes
 from drapery.render.export.gltf import quaternions
 from drapery.scenes import Dressed, loop, moments
 

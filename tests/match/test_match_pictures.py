@@ -18,11 +18,11 @@ from drapery.match import (
     Match,
     Matcher,
     Mural,
-    decode_picture,
+    decode_pixels,
     fit_mural,
     fit_picture,
     nearest_dye,
-    read_picture,
+    read_pixels,
     shared_materials,
 )
 from drapery.packs import open_packs
@@ -110,29 +110,29 @@ def test_a_mask_and_weights_say_what_counts() -> None:
 def test_pictures_are_read(kind: str, tmp_path: Path) -> None:
     path = tmp_path / "picture"
     Image.fromarray(picture(20, 40)).convert("RGB").save(path, kind)
-    assert read_picture(path).shape == (40, 20, 4)
+    assert read_pixels(path).shape == (40, 20, 4)
 
 
 def test_pictures_of_cameras_are_turned_upright() -> None:
     data, exif = BytesIO(), Image.Exif()
     exif[0x0112] = 6
     Image.fromarray(picture(40, 20)).convert("RGB").save(data, "JPEG", exif=exif)
-    assert decode_picture(data.getvalue()).shape == (40, 20, 4)
+    assert decode_pixels(data.getvalue()).shape == (40, 20, 4)
 
 
 def test_what_is_not_a_picture_is_refused(tmp_path: Path) -> None:
     with pytest.raises(OptionError, match="cannot be read"):
-        read_picture(tmp_path / "missing.png")
+        read_pixels(tmp_path / "missing.png")
     with pytest.raises(OptionError, match="not a picture that can be read; save it as PNG"):
-        decode_picture(b"GIF89a or a text")
+        decode_pixels(b"GIF89a or a text")
     data = BytesIO()
     Image.fromarray(picture(20, 40)).save(data, "PNG")
     with pytest.raises(OptionError, match="broken PNG file"):
-        decode_picture(data.getvalue()[:80])
+        decode_pixels(data.getvalue()[:80])
     data = BytesIO()
     Image.fromarray(picture(200, 400)).convert("RGB").save(data, "JPEG")
     with pytest.raises(OptionError, match="broken picture"):
-        decode_picture(data.getvalue()[:900])
+        decode_pixels(data.getvalue()[:900])
 
 
 @pytest.mark.parametrize(
@@ -146,14 +146,14 @@ def test_a_bomb_is_refused_before_it_is_decoded(side: int, message: str) -> None
     header = b"IHDR" + side.to_bytes(4, "big") * 2 + plain[24:29]
     bomb = plain[:12] + header + crc32(header).to_bytes(4, "big") + plain[33:]
     with pytest.raises(OptionError, match=message):
-        decode_picture(bomb)
+        decode_pixels(bomb)
 
 
 def test_a_large_picture_is_refused_before_it_is_decoded() -> None:
     data = BytesIO()
     Image.new("L", (4200, 4200)).save(data, "JPEG")
     with pytest.raises(OptionError, match="4200 x 4200 px; at most 16 million pixels"):
-        decode_picture(data.getvalue())
+        decode_pixels(data.getvalue())
 
 
 def test_the_nearest_dye_is_named() -> None:

@@ -18,7 +18,7 @@ from drapery.errors import OptionError, OutputError
 from drapery.file_formats import endings_of
 from drapery.mesh import Mesh, vertex_normals
 from drapery.render.camera import Camera
-from drapery.render.export import save_model
+from drapery.render.export import save_scenes
 from drapery.render.light import UNLIT
 from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
@@ -122,7 +122,7 @@ def raw(tree: dict[str, Any], binary: bytes, part: dict[str, Any], kind: Any, co
 
 
 def test_the_reopened_glb_draws_the_same_picture(tmp_path: Path) -> None:
-    save_model(SCENES[0], tmp_path / "a.glb")
+    save_scenes(SCENES[0], tmp_path / "a.glb")
     opened = trimesh.load_scene(tmp_path / "a.glb")
     models = []
     for name, geometry in opened.geometry.items():
@@ -147,7 +147,7 @@ def test_the_reopened_glb_draws_the_same_picture(tmp_path: Path) -> None:
 
 
 def test_morph_targets_are_the_frames(tmp_path: Path) -> None:
-    save_model(iter(SCENES), tmp_path / "a.glb", fps=10)
+    save_scenes(iter(SCENES), tmp_path / "a.glb", fps=10)
     tree, binary = glb(tmp_path / "a.glb")
     moving = [mesh for mesh in tree["meshes"] if "weights" in mesh]
     assert [mesh["name"] for mesh in moving] == ["part_0", "part_0_cutout"]
@@ -166,7 +166,7 @@ def test_morph_targets_are_the_frames(tmp_path: Path) -> None:
 
 
 def test_the_animation_shows_one_frame_at_a_time_and_loops(tmp_path: Path) -> None:
-    save_model(SCENES, tmp_path / "a.glb", fps=10)
+    save_scenes(SCENES, tmp_path / "a.glb", fps=10)
     tree, binary = glb(tmp_path / "a.glb")
     (animation,) = tree["animations"]
     (sampler,) = animation["samplers"]
@@ -189,7 +189,7 @@ def waving(count: int, waves: float) -> list[Scene]:
 
 def test_frames_on_a_line_are_left_out_at_a_stated_error(tmp_path: Path) -> None:
     frames = waving(400, 2)
-    save_model(frames, tmp_path / "a.glb", fps=100)
+    save_scenes(frames, tmp_path / "a.glb", fps=100)
     tree, binary = glb(tmp_path / "a.glb")
     (animation,), (mesh,) = tree["animations"], tree["meshes"]
     times = values(tree, binary, animation["samplers"][0]["input"])[:, 0]
@@ -217,7 +217,7 @@ def test_frames_on_a_line_are_left_out_at_a_stated_error(tmp_path: Path) -> None
 
 def test_a_loop_of_too_many_poses_is_refused(tmp_path: Path) -> None:
     with pytest.raises(OptionError, match=r"takes 281 poses, and a GLB has .* use seconds 25.6"):
-        save_model(waving(300, 140), tmp_path / "a.glb", fps=10)
+        save_scenes(waving(300, 140), tmp_path / "a.glb", fps=10)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -226,14 +226,14 @@ def test_models_without_a_scene_are_refused(tmp_path: Path) -> None:
     wrong: Any
     for wrong in ([model], [SCENES[0], model.mesh], model):
         with pytest.raises(OptionError, match=r"writes scenes, .* `Scene\(\(model,\), camera\)`$"):
-            save_model(wrong, tmp_path / "a.glb")
+            save_scenes(wrong, tmp_path / "a.glb")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_weights_do_not_grow_with_the_square_of_the_targets(tmp_path: Path) -> None:
     sizes = []
     for count in (60, 120, 240):
-        save_model(waving(count, count // 3), tmp_path / "a.glb", fps=20)
+        save_scenes(waving(count, count // 3), tmp_path / "a.glb", fps=20)
         sizes.append((tmp_path / "a.glb").stat().st_size)
     assert sizes[2] - sizes[1] < 2.1 * (sizes[1] - sizes[0])
 
@@ -247,7 +247,7 @@ def test_only_a_closed_opaque_mesh_is_single_sided_and_names_are_kept(tmp_path: 
         Model(inside_out, LOOKS[:1]),
         Model(sheet(0.2), LOOKS[:1], name="sheet"),
     )
-    save_model(replace(SCENES[0], models=models), tmp_path / "a.glb")
+    save_scenes(replace(SCENES[0], models=models), tmp_path / "a.glb")
     tree, _ = glb(tmp_path / "a.glb")
     both = {each["name"]: each["doubleSided"] for each in tree["materials"]}
     assert both == {"box": False, "box_cutout": True, "part_2": True, "sheet": True}
@@ -256,8 +256,8 @@ def test_only_a_closed_opaque_mesh_is_single_sided_and_names_are_kept(tmp_path: 
 
 
 def test_the_origin_is_moved_with_the_camera(tmp_path: Path) -> None:
-    save_model(SCENES, tmp_path / "a.glb")
-    save_model(SCENES, tmp_path / "b.glb", origin=(0.5, 0.0, 0.5))
+    save_scenes(SCENES, tmp_path / "a.glb")
+    save_scenes(SCENES, tmp_path / "b.glb", origin=(0.5, 0.0, 0.5))
     bounds = [trimesh.load_scene(tmp_path / f"{name}.glb").bounds for name in "ab"]
     assert np.allclose(bounds[0] - bounds[1], [0.5, 0, 0.5], atol=1e-6)
     poses = []
@@ -268,7 +268,7 @@ def test_the_origin_is_moved_with_the_camera(tmp_path: Path) -> None:
 
 
 def test_pixel_art_is_not_blurred_and_the_camera_is_ours(tmp_path: Path) -> None:
-    save_model(SCENES[0], tmp_path / "a.glb")
+    save_scenes(SCENES[0], tmp_path / "a.glb")
     tree, _ = glb(tmp_path / "a.glb")
     (sampler,) = tree["samplers"]
     assert sampler["magFilter"] == sampler["minFilter"] == 9728
@@ -286,7 +286,7 @@ def all_positions(scene: Scene) -> np.ndarray:
 
 
 def test_obj_opens_again_with_its_texture(tmp_path: Path) -> None:
-    save_model(SCENES, tmp_path / "a.obj")
+    save_scenes(SCENES, tmp_path / "a.obj")
     names = {path.name for path in tmp_path.iterdir()}
     assert names == {"a.obj", "a.mtl", "a_texture.png"}
     mesh = trimesh.load_mesh(tmp_path / "a.obj", process=False, maintain_order=True)
@@ -300,7 +300,7 @@ def test_obj_opens_again_with_its_texture(tmp_path: Path) -> None:
 
 def test_obj_is_written_to_the_letter(tmp_path: Path) -> None:
     """The bytes differed with trimesh's version, and its normals were not those of the meshes."""
-    save_model(SCENES, tmp_path / "a.obj")
+    save_scenes(SCENES, tmp_path / "a.obj")
     text = (tmp_path / "a.obj").read_text("utf-8")
     assert text.startswith("# drapery\nmtllib a.mtl\n\no ") and "\nusemtl a_texture\nv " in text
     corners = re.findall(r"(\d+)/(\d+)/(\d+)", text)
@@ -319,7 +319,7 @@ def test_obj_is_written_to_the_letter(tmp_path: Path) -> None:
 def test_ply_has_the_texels_at_its_vertices(tmp_path: Path) -> None:
     plain = np.full((4, 4, 4), (10, 200, 30, 255), np.uint8)
     scene = replace(SCENES[0], models=(Model(sheet(0.2), (Material((TextureLayer(plain),)),)),))
-    save_model(scene, tmp_path / "a.ply")
+    save_scenes(scene, tmp_path / "a.ply")
     mesh = trimesh.load_mesh(tmp_path / "a.ply", process=False)
     assert np.array_equal(np.asarray(mesh.vertices, np.float32), scene.models[0].mesh.positions)
     assert np.array_equal(mesh.faces, scene.models[0].mesh.triangles)
@@ -332,7 +332,7 @@ def test_ply_has_the_texels_at_its_vertices(tmp_path: Path) -> None:
 def test_bedrock_geometry_is_mirrored_in_sixteenths(tmp_path: Path) -> None:
     mesh = sheet(0.3, 0.1, 0.2, 0.3)
     scene = replace(SCENES[0], models=(Model(mesh, LOOKS[:1]),))
-    save_model(scene, tmp_path / "My Flag.geo.json")
+    save_scenes(scene, tmp_path / "My Flag.geo.json")
     (geometry,) = json.loads((tmp_path / "My Flag.geo.json").read_text())["minecraft:geometry"]
     assert geometry["description"]["identifier"] == "geometry.my_flag"
     (bone,) = geometry["bones"]
@@ -354,7 +354,7 @@ def test_bedrock_geometry_is_mirrored_in_sixteenths(tmp_path: Path) -> None:
 
 
 def test_blockbench_models_hold_mesh_and_texture(tmp_path: Path) -> None:
-    save_model(SCENES[0], tmp_path / "a.bbmodel")
+    save_scenes(SCENES[0], tmp_path / "a.bbmodel")
     model = json.loads((tmp_path / "a.bbmodel").read_text())
     assert model["outliner"] == [element["uuid"] for element in model["elements"]]
     assert len(set(model["outliner"])) == len(model["elements"]) == 4
@@ -377,33 +377,35 @@ def test_blockbench_models_hold_mesh_and_texture(tmp_path: Path) -> None:
 def test_same_scenes_same_bytes(tmp_path: Path, ending: str) -> None:
     for run in ("one", "two"):
         (tmp_path / run).mkdir()
-        save_model(scenes(), tmp_path / run / f"a{ending}")
+        save_scenes(scenes(), tmp_path / run / f"a{ending}")
     for file in (tmp_path / "one").iterdir():
         assert file.read_bytes() == (tmp_path / "two" / file.name).read_bytes()
 
 
 def test_bad_input_is_refused_and_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(OptionError, match=r"\.stl.*\.glb, \.obj"):
-        save_model(SCENES, tmp_path / "a.stl")
+        save_scenes(SCENES, tmp_path / "a.stl")
     with pytest.raises(OptionError, match="without an ending it holds no 3-D file"):
-        save_model(SCENES, tmp_path / ".glb")
+        save_scenes(SCENES, tmp_path / ".glb")
     with pytest.raises(OutputError, match="does not exist"):
-        save_model(SCENES, tmp_path / "no" / "a.glb")
+        save_scenes(SCENES, tmp_path / "no" / "a.glb")
     with pytest.raises(OptionError, match="no scene"):
-        save_model([], tmp_path / "a.glb")
+        save_scenes([], tmp_path / "a.glb")
     with pytest.raises(OptionError, match="no mesh"):
-        save_model(replace(SCENES[0], models=()), tmp_path / "a.glb")
+        save_scenes(replace(SCENES[0], models=()), tmp_path / "a.glb")
     with pytest.raises(OptionError, match="frame 1 has other meshes"):
-        save_model([SCENES[0], replace(SCENES[0], models=SCENES[0].models[:1])], tmp_path / "a.glb")
+        save_scenes(
+            [SCENES[0], replace(SCENES[0], models=SCENES[0].models[:1])], tmp_path / "a.glb"
+        )
     broken = replace(sheet(0.1), positions=np.full((25, 3), np.nan, np.float32))
     with pytest.raises(OptionError, match="not finite"):
-        save_model(replace(SCENES[0], models=(Model(broken, LOOKS[:1]),)), tmp_path / "a.glb")
+        save_scenes(replace(SCENES[0], models=(Model(broken, LOOKS[:1]),)), tmp_path / "a.glb")
     odd = Material((TextureLayer(texture(1, 8)), TextureLayer(texture(1, 12))))
     with pytest.raises(OptionError, match="do not divide"):
-        save_model(replace(SCENES[0], models=(Model(sheet(0), (odd,)),)), tmp_path / "a.glb")
+        save_scenes(replace(SCENES[0], models=(Model(sheet(0), (odd,)),)), tmp_path / "a.glb")
     (tmp_path / "b.mtl").mkdir()
     with pytest.raises(OutputError, match=r"b\.mtl: it is a folder"):
-        save_model(SCENES, tmp_path / "b.obj")
+        save_scenes(SCENES, tmp_path / "b.obj")
     assert [path.name for path in tmp_path.iterdir()] == ["b.mtl"]
 
 
@@ -412,6 +414,6 @@ def test_only_glb_asks_for_later_scenes(tmp_path: Path) -> None:
         yield SCENES[0]
         raise AssertionError("made")
 
-    save_model(made(), tmp_path / "a.bbmodel")
+    save_scenes(made(), tmp_path / "a.bbmodel")
     with pytest.raises(AssertionError):
-        save_model(made(), tmp_path / "a.glb")
+        save_scenes(made(), tmp_path / "a.glb")

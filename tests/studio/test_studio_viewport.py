@@ -14,7 +14,7 @@ import pytest
 
 from drapery.garments import find_garment
 from drapery.packs import open_packs
-from drapery.scenes import Clip, Picture
+from drapery.scenes import Clip, ClipPicture
 from drapery.settings import Settings
 from drapery.studio.live_threads import THREADS, in_thread
 from drapery.studio.panels.live import show_scene, wear
@@ -148,7 +148,7 @@ def test_the_loop_of_a_garment_follows_its_first_picture() -> None:
 def test_a_loop_that_nobody_will_see_is_given_up(
     session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def endless(clip: Clip, on_moment: Callable[[int, int], object]) -> Iterator[Picture]:
+    def endless(clip: Clip, on_moment: Callable[[int, int], object]) -> Iterator[ClipPicture]:
         while True:
             on_moment(0, clip.count)
             time.sleep(0.01)

@@ -10,7 +10,7 @@ from PIL import Image
 
 from drapery.render import Camera, Frame, Scene, draw_scene
 from drapery.scenes import Clip, find_scene, scene_frames
-from drapery.scenes.picture_grid import Picture
+from drapery.scenes.picture_grid import ClipPicture
 from drapery.scenes.styling import styled_pictures
 from drapery.style.tailoring import ClothModel
 from drapery.styles import STEPS, Style, StyleStep, find_style
@@ -123,6 +123,6 @@ def test_frames_that_a_scene_draws_itself_take_picture_steps(name: str) -> None:
         (Scene((), Camera((0, 0, 3), (0, 0, 0)), (8, 8)), "boards", "no rectangle of cloth"),
     ],
 )
-def test_steps_that_change_nothing_are_told(picture: Picture, style: str, said: str) -> None:
+def test_steps_that_change_nothing_are_told(picture: ClipPicture, style: str, said: str) -> None:
     with pytest.warns(UserWarning, match=said):
         list(styled_pictures([picture], find_style(style), draw_scene))

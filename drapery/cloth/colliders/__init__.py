@@ -12,8 +12,8 @@ from drapery.cloth.colliders.pose import (
     Path,
     Pose,
     TablePath,
+    at_rest,
     rotation_about,
-    still,
     straight,
     swinging,
 )
@@ -41,12 +41,12 @@ __all__ = [
     "TablePath",
     "TriangleMesh",
     "Voxels",
+    "at_rest",
     "check_collider",
     "height_collider",
     "load_mesh",
     "mesh_collider",
     "rotation_about",
-    "still",
     "straight",
     "swinging",
 ]

@@ -7,7 +7,7 @@ import numpy as np
 
 from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.packing import pack
-from drapery.cloth.colliders.pose import Path, still
+from drapery.cloth.colliders.pose import Path, at_rest
 from drapery.cloth.colliders.shapes import Shape
 from drapery.errors import OptionError
 
@@ -18,7 +18,7 @@ class Collider:
 
     shape: a Sphere, Capsule, Box, Plane, Voxels or TriangleMesh, or any object that has a signed
         distance, see `SignedDistance`.
-    path: the shape's pose as a function of time [s]; `still` by default.
+    path: the shape's pose as a function of time [s]; `at_rest` by default.
     restitution: speed after a bounce over the approach speed, 0 to 1.
     friction: Coulomb's coefficient, 0 or more.
 
@@ -27,7 +27,7 @@ class Collider:
     """
 
     shape: Shape
-    path: Path = still
+    path: Path = at_rest
     restitution: float = 0.0
     friction: float = 0.3
     packed: Field = field(init=False, repr=False)

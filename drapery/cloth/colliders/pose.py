@@ -51,7 +51,7 @@ class TablePath:
 STILL = Pose()
 
 
-def still(time: float) -> Pose:
+def at_rest(time: float) -> Pose:
     """The path of a collider that does not move."""
     return STILL
 

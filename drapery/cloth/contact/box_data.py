@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.colliders.collider import Collider
-from drapery.cloth.colliders.pose import Path, Pose, TablePath, still
+from drapery.cloth.colliders.pose import Path, Pose, TablePath, at_rest
 from drapery.cloth.colliders.shapes import Box, Plane, Shape
 from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
 from drapery.cloth.lanes import time_blocks
@@ -79,7 +79,7 @@ class BoxColliders:
     def poses(self, times: Sequence[float]) -> Array:
         """Place [m] and rotation of each box at some times [s], [T, K, 12]; one entry for all times
         where no box moves."""
-        if all(path is still for path in self.paths):
+        if all(path is at_rest for path in self.paths):
             return self.contact.ends[None]
         parts = time_blocks(np.array(times, float))
         return np.concatenate([self._poses_at(part) for part in parts])
@@ -92,7 +92,7 @@ class BoxColliders:
     def _poses_at(self, times: Array) -> Array:
         poses = np.repeat(self.contact.ends[None], len(times), axis=0)
         for number, (path, rest) in enumerate(zip(self.paths, self.contact.ends, strict=True)):
-            if path is not still:
+            if path is not at_rest:
                 moved = _path_at(path, times)
                 turn, own = moved[:, 3:].reshape(-1, 3, 3), rest[3:].reshape(3, 3)
                 # Sums in a fixed order; BLAS may not add in one.

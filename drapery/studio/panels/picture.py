@@ -20,7 +20,7 @@ from drapery.match import (
     MatchProgress,
     fit_picture,
     match_photo,
-    read_picture,
+    read_pixels,
 )
 from drapery.packs import Packs, Texels
 from drapery.studio.descriptions import described
@@ -123,7 +123,7 @@ def build(session: Session) -> None:
 def _read(path: Path, name: str) -> Texels:
     """The pixels of a picture. Raises OptionError with the user's name of the file."""
     try:
-        return read_picture(path)
+        return read_pixels(path)
     except DraperyError as error:  # it names the file as it is stored here
         raise type(error)(str(error).replace(path.name, name)) from None
 
