@@ -8,20 +8,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import Run
-from docs_blocks import DOCS, ROOT, SHELL, Block, Reader, blocks, check_command, commands, prints
+from docs_blocks import (
+    BY_HAND,
+    DOCS,
+    ROOT,
+    SHELL,
+    Block,
+    Reader,
+    blocks,
+    check_command,
+    commands,
+    prints,
+)
+from page_files import write_files
 from PIL import Image
 
-from drapery import Banner, draw_face
-from drapery.styles import find_style
-
 TUTORIAL = DOCS / "tutorial.md"
-GUIDES = (
-    *("pack-authors", "maps-and-servers", "server-map", "wikis-and-bots", "wiki-icons"),
-    *("research", "style-tour"),
-)
-"""The guides whose blocks all run. Of the other pages the programs in Python run."""
-TESTED = ("blazon", "garments", "solvers")
-"""Pages that tests of their own run."""
+GUIDES = sorted(page for page in DOCS.glob("guides/*.md") if page.stem != "index")
+LAYERING = DOCS / "explanation" / "layering.md"
+TESTED = ("blazon", "garments")
+"""Guides whose programs have tests of their own."""
 ALL = sorted([*ROOT.glob("*.md"), *DOCS.glob("**/*.md"), *ROOT.glob("examples/**/*.md")])
 TYPED = (
     *("docker", "drapery", "just", "npm", "npx", "pip", "podman", "properdocs", "pytest", "python"),
@@ -65,31 +71,27 @@ def test_the_programs_of_the_readme_and_of_the_first_page_run(reader: Reader) ->
                 reader.type(page, block)
 
 
-@pytest.mark.parametrize("name", GUIDES)
-def test_a_guide_runs_as_it_is_typed(name: str, reader: Reader) -> None:
+@pytest.mark.parametrize("page", [*GUIDES, LAYERING], ids=lambda page: page.stem)
+def test_a_page_runs_as_it_is_typed(page: Path, reader: Reader) -> None:
+    """Its reader has the pack of the tutorial, and the files that the page names."""
     (make_pack,) = (block for block in blocks(TUTORIAL) if block.title == "make_pack.py")
     reader.type(TUTORIAL, make_pack)
     reader.run("python make_pack.py")
-    page = DOCS / "guides" / f"{name}.md"
+    write_files(reader.folder)
     for block in blocks(page):
-        reader.type(page, block)
-
-
-@pytest.mark.parametrize(
-    "page",
-    [p for p in ALL if p.is_relative_to(DOCS / "guides") and p.stem not in (*GUIDES, *TESTED)],
-    ids=lambda page: page.stem,
-)
-def test_the_programs_of_a_page_run(page: Path, reader: Reader) -> None:
-    (make_pack,) = (block for block in blocks(TUTORIAL) if block.title == "make_pack.py")
-    reader.type(TUTORIAL, make_pack)
-    reader.run("python make_pack.py")
-    shutil.make_archive("my-pack", "zip", "my-pack")
-    (reader.folder / "my.toml").write_text(find_style("ink").describe(), "utf-8")
-    draw_face(Banner.parse("white cross:red"), scale=2).save("flag.png")
-    for block in blocks(page):
-        if block.language == "python":
+        if block.language != "python" or page.stem not in TESTED:
             reader.type(page, block)
+
+
+def test_each_command_that_is_typed_by_hand_stands_on_a_page() -> None:
+    typed = [
+        f"{line} "
+        for page in ALL
+        for block in blocks(page)
+        if block.language in SHELL and not block.title
+        for line, _ in commands(block.text)
+    ]
+    assert [each for each in BY_HAND if not any(t.startswith(f"{each} ") for t in typed)] == []
 
 
 def test_the_golden_test_of_the_guide_passes_after_its_update(
