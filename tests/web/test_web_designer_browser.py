@@ -232,11 +232,12 @@ banner.record(0.7).then(async (blob) => {
 def test_a_film_of_the_moving_cloth_is_played_by_the_browser(chromium: Any, site: str) -> None:
     open_designer(chromium, site)
     banner = f"{ROOT}.querySelector('drapery-banner')"
-    wait_until(lambda: run(chromium, f"!{banner}.shadowRoot.querySelector('canvas').hidden"))
-    width = run(chromium, f"{banner}.shadowRoot.querySelector('canvas').width")
+    canvas = f"{banner}.shadowRoot.querySelector('canvas')"
+    wait_until(lambda: run(chromium, f"!{canvas}.hidden"))
     kind, size, *shown, paused = chromium.execute_async_script(FILM, run(chromium, banner))
     assert kind in ("video/webm", "video/mp4") and size > 2000
-    assert shown[0] == width and paused, "what it was before"
+    assert shown == run(chromium, f"[{canvas}.width, {canvas}.height]"), "from its first frame on"
+    assert paused, "as it was"
 
 
 def test_texts_are_pasted_with_name_lore_and_count(chromium: Any, site: str) -> None:

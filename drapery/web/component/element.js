@@ -98,6 +98,7 @@ export class DraperyBanner extends Element {
   // A film of the live cloth, so long [s], as a Blob in the browser's own format: WebM, or MP4. The cloth
   // moves, whether it is in sight, paused or not.
   async record(seconds = 4) {
+    this.#shown.draw(); // gives the canvas its size, which no film changes
     const recorder = new MediaRecorder(this.#shown.canvas.captureStream());
     const parts = [];
     recorder.ondataavailable = ({ data }) => parts.push(data);
