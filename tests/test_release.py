@@ -96,6 +96,22 @@ def test_each_page_installs_from_a_checkout_first() -> None:
             assert local and local.start() < published.start(), path
 
 
+def test_what_names_a_release_says_that_it_comes_with_the_first_one() -> None:
+    """There is none yet: a reader would ask for a version or package that is not there."""
+    released = re.compile(r"drapery@v\d|rev: v\d|pip install \"?drapery-mc")
+    folders = (*ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/**/*"), ROOT / "README.md")
+    named = [
+        path
+        for path in folders
+        if path.suffix in (".md", ".yml", ".yaml") and released.search(path.read_text("utf-8"))
+    ]
+    assert {path.name for path in named} >= {"tutorial.md", "banners.yml", ".gitlab-ci.yml"}
+    unsaid = [
+        path for path in named if "first release" not in path.read_text("utf-8").replace("\n", " ")
+    ]
+    assert unsaid == []
+
+
 def test_the_citation_has_the_version_of_the_package() -> None:
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
     assert cited["version"] == PROJECT["version"]
