@@ -51,6 +51,14 @@ BY_HAND = {
 }
 """How the commands begin that no test runs, and why. They are typed by hand before a release."""
 
+TYPED = (
+    *("docker", "drapery", "just", "npm", "npx", "pip", "podman", "properdocs", "pytest", "python"),
+    *("rattler-build", "ruff"),
+)
+"""What pages tell every reader to type."""
+OTHER = re.compile(r"&&|\\$|\$\(|^[^\"]*'")
+"""What cmd and PowerShell 5.1 do not know: `&&` and a backslash, and cmd single quotes."""
+
 
 @dataclass(frozen=True)
 class Block:
@@ -110,6 +118,13 @@ def check_command(line: str) -> None:
         name, *words = words
         command = command.commands[name]
     command.make_context(name, list(words))
+
+
+def is_for_one_shell(line: str) -> bool:
+    """Whether a command, or options of one, cannot be typed in each of the three shells."""
+    if re.match(r"[A-Z_]+=\S+ +\w", line):
+        return True
+    return (line.partition(" ")[0] in TYPED or line.startswith("--")) and bool(OTHER.search(line))
 
 
 def prints(said: str, printed: str) -> bool:

@@ -18,10 +18,13 @@ from docs_blocks import (
     blocks,
     check_command,
     commands,
+    is_for_one_shell,
     prints,
 )
 from page_files import write_files
 from PIL import Image
+
+from drapery.web.gallery import ITEMS, GalleryItem
 
 TUTORIAL = DOCS / "tutorial.md"
 GUIDES = sorted(page for page in DOCS.glob("guides/*.md") if page.stem != "index")
@@ -29,13 +32,6 @@ LAYERING = DOCS / "explanation" / "layering.md"
 TESTED = ("blazon", "garments")
 """Guides whose programs have tests of their own."""
 ALL = sorted([*ROOT.glob("*.md"), *DOCS.glob("**/*.md"), *ROOT.glob("examples/**/*.md")])
-TYPED = (
-    *("docker", "drapery", "just", "npm", "npx", "pip", "podman", "properdocs", "pytest", "python"),
-    *("rattler-build", "ruff"),
-)
-"""What pages tell every reader to type."""
-OTHER = re.compile(r"&&|\\$|\$\(|^[^\"]*'")
-"""What cmd and PowerShell 5.1 do not know: `&&` and a backslash, and cmd single quotes."""
 PICTURES = {"banner.png": 0, "heart.png": 0, "difference.png": 0.02}
 """Those of the tutorial, and the share of their numbers that may differ: one has labels."""
 
@@ -125,13 +121,6 @@ def typed_lines(page: Path) -> Iterator[str]:
     yield from (re.sub(r"\s+", " ", code) for code in re.findall(r"(?<!`)`([^`]+)`(?!`)", prose))
 
 
-def is_for_one_shell(line: str) -> bool:
-    """Whether a command, or options of one, cannot be typed in each of the three shells."""
-    if re.match(r"[A-Z_]+=\S+ +\w", line):
-        return True
-    return (line.partition(" ")[0] in TYPED or line.startswith("--")) and bool(OTHER.search(line))
-
-
 @pytest.mark.parametrize(
     "page",
     [*ALL, ROOT / ".github" / "pull_request_template.md"],
@@ -145,6 +134,12 @@ def test_a_command_can_be_typed_in_any_shell(page: Path) -> None:
         if f'$env:{name} = "' not in text or f"set {name}=" not in text:
             found.append(f"export {name}")
     assert found == []
+
+
+@pytest.mark.parametrize("item", ITEMS, ids=lambda item: item.name)
+def test_a_command_of_the_live_gallery_can_be_typed_in_any_shell(item: GalleryItem) -> None:
+    check_command(item.command)
+    assert not is_for_one_shell(item.command)
 
 
 def test_what_one_shell_alone_knows_is_found() -> None:

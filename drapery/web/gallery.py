@@ -59,14 +59,14 @@ class GalleryItem:
 
     @property
     def command(self) -> str:
-        """The command that writes a page of this scene."""
+        """The command that writes a page of this scene, for any shell."""
         if self.worn:
             worn, pose = WORN[self.worn], self.attributes["pose"]
             moves = f"--motion {pose} --speed {POSES[pose]:g} --rotation {FROM_BEHIND}"
             return f"drapery player {worn} {moves} -o {self.name}.html"
         given = {**self.options, **self.attributes}.items()
         words = [f"--{option} {value}" for option, value in given]
-        shown = f"'{self.design}'" if self.design else "--texture cape.png"
+        shown = f'"{self.design}"' if self.design else "--texture cape.png"
         return " ".join(["drapery web", shown, *words, f"-o {self.name}.html"])
 
 
