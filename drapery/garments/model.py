@@ -8,8 +8,9 @@ origin, its feet on y = 0, and looks to +z.
 
 import math
 from collections.abc import Callable, Iterator, Sequence, Set
+from inspect import Parameter, Signature
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, get_type_hints
 
 from pydantic import (
     AfterValidator,
@@ -136,7 +137,33 @@ def _as_mesh_file(file: Path) -> Path:
     return file
 
 
-class GarmentTable(BaseModel):
+class Described(type(BaseModel)):  # type: ignore[misc]
+    """Models whose `help` shows what they have themselves, and the plain types of their fields."""
+
+    def __init__(cls, *given: Any, **options: Any) -> None:
+        super().__init__(*given, **options)
+        types = get_type_hints(cls, localns={cls.__name__: cls})
+        cls.__signature__ = Signature(
+            [
+                Parameter(
+                    name,
+                    Parameter.KEYWORD_ONLY,
+                    default=Parameter.empty if field.is_required() else field.default,
+                    annotation=types[name],
+                )
+                for name, field in cls.model_fields.items()
+            ]
+        )
+
+    def __dir__(cls) -> list[str]:
+        own = set(super().__dir__()).difference(_OF_EVERY_MODEL)
+        return [name for name in own if not name.startswith("__")]
+
+
+_OF_EVERY_MODEL = frozenset(dir(BaseModel))
+
+
+class GarmentTable(BaseModel, metaclass=Described):
     """A table of a garment's file; it has no other fields, and never changes."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
@@ -145,14 +172,20 @@ class GarmentTable(BaseModel):
 class ClothTexture(GarmentTable):
     """What is drawn on a piece: a block, a banner's design, a file or a texture of the packs.
 
-    block: the name of a block's texture, tiled. dye: multiplies it; None leaves it as it is.
-    stripes, bands: dyes that follow `dye` in turn, from left to right or downwards, each `width`
-    texels wide. trim: the dye of the lowest texels, `trim_width` high.
-    design: of a banner, as a text. file: a PNG file, relative to the garment's file. pack: the name
-    of a texture of the packs, such as `entity/player/cape`.
-    box: where a model's box lies on the texture, unfolded: left, top, width, height, depth.
-    front, back: the part on each side: left, top, width, height; the whole unless given, and the
-    front on both sides. sheet: width and height of the texture in these units [texels].
+    block: the name of a block's texture, tiled.
+    dye: multiplies it; None leaves it as it is.
+    stripes, bands: dyes that follow `dye` in turn, from left to right or downwards.
+    width: of each stripe or band [texels].
+    trim: the dye of the lowest texels.
+    trim_width: how high they are [texels].
+    design: of a banner, as a text.
+    file: a PNG file, relative to the garment's file.
+    pack: the name of a texture of the packs, such as `entity/player/cape`.
+    box: where a model's box lies on the texture, unfolded: left, top, width, height, depth
+        [texels].
+    front, back: the part on each side: left, top, width, height [texels]; the whole unless given,
+        and the front on both sides.
+    sheet: width and height of the texture in these units [texels].
     """
 
     block: Annotated[str, Field(pattern=r"^[a-z0-9_/.-]{1,64}$")] | None = None
@@ -190,9 +223,11 @@ class ClothTexture(GarmentTable):
 class GarmentPiece(GarmentTable):
     """What all pieces have.
 
-    name: by which seams and pins name it. place: where its origin is [texels]. turn: angles about
-    x, then y, then z through its origin [degrees]. mirror: the name of a second piece, this one
-    mirrored at x = 0. layer: cloth of a higher layer stays outside that of lower ones.
+    name: by which seams and pins name it.
+    place: where its origin is [texels].
+    turn: angles about x, then y, then z through its origin [degrees].
+    mirror: the name of a second piece, this one mirrored at x = 0.
+    layer: cloth of a higher layer stays outside that of lower ones.
     texture: that of the garment unless given.
     """
 
@@ -207,9 +242,13 @@ class GarmentPiece(GarmentTable):
 class GridPiece(GarmentPiece):
     """A rectangle or trapezoid that hangs down from the middle of its upper edge.
 
-    size: width and height [texels]. points: particles across and down. hem: the width of its lower
-    edge, if another. slack: the part of its size between its places at rest; below 1 it is loose.
-    Edges: top, bottom, left, right, the corners of two of them such as top-left, and corners.
+    size: width and height [texels].
+    points: particles across and down.
+    hem: the width of its lower edge [texels], if another.
+    slack: the part of its size between its places at rest; below 1 it is loose.
+
+    `GarmentPiece` has its other fields. Edges: top, bottom, left, right, the corners of two of them
+    such as top-left, and corners.
     """
 
     shape: Literal["grid"] = "grid"
@@ -233,8 +272,12 @@ class GridPiece(GarmentPiece):
 class StripPiece(GarmentPiece):
     """A rope or ribbon from one place to another.
 
-    ends: where it starts and ends [texels]. length: at least their distance; longer ones sag.
-    width: across [texels]. points: particles along it. Edges: start, end.
+    ends: where it starts and ends [texels].
+    length: at least their distance [texels]; longer ones sag.
+    width: across [texels].
+    points: particles along it.
+
+    `GarmentPiece` has its other fields. Edges: start, end.
     """
 
     shape: Literal["strip"]
@@ -271,9 +314,12 @@ class StripPiece(GarmentPiece):
 class RingPiece(GarmentPiece):
     """A tube about the y axis, such as a skirt, coat or tent.
 
-    profile: of rings from the top down: height, half width, half depth [texels]. points: particles
-    around and down. square: 2 is an ellipse, higher numbers are squarer. open: the angle of a gap
-    at its front [degrees]; 0 closes it. Edges: top, bottom, and of open ones left, right.
+    profile: of rings from the top down: height, half width, half depth [texels].
+    points: particles around and down.
+    square: 2 is an ellipse, higher numbers are squarer.
+    open: the angle of a gap at its front [degrees]; 0 closes it.
+
+    `GarmentPiece` has its other fields. Edges: top, bottom, and of open ones left, right.
     """
 
     shape: Literal["ring"]
@@ -299,9 +345,12 @@ class RingPiece(GarmentPiece):
 
 
 class DiscPiece(GarmentPiece):
-    """A round cloth that lies level and faces up. radius: [texels]. rings: of particles.
+    """A round cloth that lies level and faces up.
 
-    Edges: rim, middle.
+    radius: [texels].
+    rings: of particles.
+
+    `GarmentPiece` has its other fields. Edges: rim, middle.
     """
 
     shape: Literal["disc"]
@@ -322,9 +371,11 @@ class DiscPiece(GarmentPiece):
 class PolygonPiece(GarmentPiece):
     """A flat piece of any outline.
 
-    corners: x and y of each, counter-clockwise seen from the front [texels]. spacing: between
-    particles [texels]. Edges: rim, top, bottom, left, right, and side-1, side-2 and so on, the
-    first from corner 1 to corner 2.
+    corners: x and y of each, counter-clockwise seen from the front [texels].
+    spacing: between particles [texels].
+
+    `GarmentPiece` has its other fields. Edges: rim, top, bottom, left, right, and side-1, side-2
+    and so on, the first from corner 1 to corner 2.
     """
 
     shape: Literal["polygon"]
@@ -372,8 +423,13 @@ AnyPiece = Annotated[
 
 
 class GarmentPin(GarmentTable):
-    """Particles that are held. piece: its name. at: an edge of it, or places in its own frame
-    [texels], each of which holds the nearest particle. to: a bone of the wearer, or `fixed`."""
+    """Particles that are held.
+
+    piece: its name.
+    at: an edge of it, or places in its own frame [texels], each of which holds the nearest
+        particle.
+    to: a bone of the wearer, or `fixed`.
+    """
 
     piece: Name
     at: str | Annotated[tuple[Spot, ...], Field(min_length=1, max_length=64)]
@@ -381,7 +437,10 @@ class GarmentPin(GarmentTable):
 
 
 class GarmentSeam(GarmentTable):
-    """Two edges with as many particles each, which are sewn. join: such as `front.left` twice."""
+    """Two edges with as many particles each, which are sewn.
+
+    join: a piece and its edge, such as `front.left`, twice.
+    """
 
     join: tuple[str, str]
 
@@ -395,7 +454,11 @@ class GarmentSeam(GarmentTable):
 
 
 class GarmentPole(GarmentTable):
-    """A square pole of wood. start, end: [texels]. half: half its width [texels]."""
+    """A square pole of wood.
+
+    start, end: the middles of its ends [texels].
+    half: half its width [texels].
+    """
 
     start: Point
     end: Point
@@ -409,8 +472,10 @@ class GarmentPole(GarmentTable):
 
 
 class GarmentBlock(GarmentTable):
-    """Blocks. cell: the lowest x, y and z of the first [blocks]. size: how many along x, y and z.
+    """Blocks.
 
+    cell: the lowest x, y and z of the first [blocks].
+    size: how many along x, y and z.
     kind: the name of the block's texture, `grass`, or a dye for its wool.
     """
 
@@ -428,9 +493,13 @@ class GarmentBlock(GarmentTable):
 
 
 class GarmentMesh(GarmentTable):
-    """A stiff body of a 3-D file, which stops cloth. file: .glb, .obj, .ply or .stl, relative to
-    the garment's file. place: where its origin is [texels]. turn: angles about x, then y, then z
-    through it [degrees]. scale: the length of the file's unit [texels]; 16 for files in metres."""
+    """A stiff body of a 3-D file, which stops cloth.
+
+    file: .glb, .obj, .ply or .stl, relative to the garment's file.
+    place: where its origin is [texels].
+    turn: angles about x, then y, then z through it [degrees].
+    scale: the length of the file's unit [texels]; 16 for files in metres.
+    """
 
     file: Annotated[Path, AfterValidator(_said(_as_mesh_file))]
     place: Point = (0.0, 0.0, 0.0)
@@ -439,23 +508,27 @@ class GarmentMesh(GarmentTable):
 
 
 class GarmentWearer(GarmentTable):
-    """Who wears it. kind: player or horse.
+    """Who wears it.
 
+    kind: player or horse.
     skin: of a player, `traveller` or `dancer`, or a PNG file of 64 x 64 or 64 x 32 texels, relative
-    to the garment's file, or a profile of the game, as text or as a file, whose texture a pack has.
+        to the garment's file, or a profile of the game, as text or as a file, whose texture a pack
+        has.
+    speed: over the ground [m/s], the speed of the air from ahead; a walk of 0 stands.
     arms: slim, classic, or auto, which reads it from the skin.
     overlay: how the skin's second layer is drawn: flat, its texels as small boxes, or not at all.
     motion: `walk`, another motion of a player, or a pose in a JSON file; see `motion_names`.
-    Several are layered by `walk+wave`, or averaged by `walk:0.7,wave:0.3`.
-    speed: over the ground [m/s], the speed of the air from ahead; a walk of 0 stands.
+        Several are layered by `walk+wave`, or averaged by `walk:0.7,wave:0.3`.
     look: how far a player's head turns to its left and downwards [degrees], or the point that it
-    looks at: to its left, upwards from the ground, and ahead [m].
-    solid: the bones that stop its cloth; all of them unless given. `pole` and `bar` are those of a
-    banner on the head, `armor` adds the armour on the bones.
+        looks at: to its left, upwards from the ground, and ahead [m].
     shown: what the picture shows: full, bust or head.
-    head: the design of a banner on a player's head. shield: that of a shield in the left hand.
+    solid: the bones that stop its cloth; all of them unless given. `pole` and `bar` are those of a
+        banner on the head, `armor` adds the armour on the bones.
+    head: the design of a banner on a player's head.
+    shield: the design of a shield in the left hand.
     armor: a material such as `diamond`, or pieces such as `helmet:iron,boots:gold`; the packs have
-    their textures. trim: of the armour, such as `coast:gold`.
+        their textures.
+    trim: of the armour, such as `coast:gold`.
     """
 
     kind: Literal["player", "horse"] = "player"
@@ -495,14 +568,23 @@ class GarmentWearer(GarmentTable):
 
 
 class Garment(GarmentTable):
-    """Cloth as data; the guide to garments lists the fields.
+    """Cloth as data.
 
-    name: shown in lists; the name of its file. description: one line about it.
-    fabric: the name of a preset, or a table of the fields of `Fabric`. thickness: [texels].
+    name: shown in lists; the name of its file.
+    description: one line about it.
+    fabric: the name of a preset, or a table of the fields of `Fabric`.
+    thickness: of the cloth, 0.05 to 16 [texels].
     collisions: what its cloth does not pass through: `none`, `world` (wearer, poles, blocks,
-    meshes, ground), or `all` (itself too). resolution: texels to a block.
+        meshes, ground), or `all` (itself too).
+    resolution: texels to a block, 1 to 256.
+    texture: that of the pieces that have none of their own.
     folder: where relative paths of its textures start.
     picture: options of its pictures by name, unless the picture gives them; see `Settings`.
+    wearer: a player or horse, which stands at the origin; without one, nobody wears it.
+    piece: at most 64 pieces of cloth.
+    pin: where they are held.
+    seam: which of their edges are sewn together.
+    pole, block, mesh: stiff bodies, which are drawn and stop cloth.
     over: garments that its wearer wears over it; only their cloth counts.
 
     A program that makes one of wrong values gets pydantic's ValidationError, `load` an OptionError.
