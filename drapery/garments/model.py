@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence, Set
 from inspect import Parameter, Signature
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, get_type_hints
 
 from pydantic import (
     AfterValidator,
@@ -137,13 +137,16 @@ def _as_mesh_file(file: Path) -> Path:
     return file
 
 
-class Described(type(BaseModel)):  # type: ignore[misc]
+_ModelType: Any = type(BaseModel)
+
+
+class Described(_ModelType):  # type: ignore[misc]
     """Models whose `help` shows what they have themselves, and the plain types of their fields."""
 
-    def __init__(cls, *given: Any, **options: Any) -> None:
+    def __init__(self, *given: Any, **options: Any) -> None:
         super().__init__(*given, **options)
-        types = get_type_hints(cls, localns={cls.__name__: cls})
-        cls.__signature__ = Signature(
+        types = get_type_hints(self, localns={self.__name__: self})
+        self.__signature__ = Signature(
             [
                 Parameter(
                     name,
@@ -151,11 +154,11 @@ class Described(type(BaseModel)):  # type: ignore[misc]
                     default=Parameter.empty if field.is_required() else field.default,
                     annotation=types[name],
                 )
-                for name, field in cls.model_fields.items()
+                for name, field in self.model_fields.items()
             ]
         )
 
-    def __dir__(cls) -> list[str]:
+    def __dir__(self) -> list[str]:
         own = set(super().__dir__()).difference(_OF_EVERY_MODEL)
         return [name for name in own if not name.startswith("__")]
 
@@ -163,7 +166,15 @@ class Described(type(BaseModel)):  # type: ignore[misc]
 _OF_EVERY_MODEL = frozenset(dir(BaseModel))
 
 
-class GarmentTable(BaseModel, metaclass=Described):
+if TYPE_CHECKING:
+    DescribedModel = BaseModel
+else:
+
+    class DescribedModel(BaseModel, metaclass=Described):
+        """What has this kind of `help`."""
+
+
+class GarmentTable(DescribedModel):
     """A table of a garment's file; it has no other fields, and never changes."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
