@@ -31,6 +31,7 @@ DESIGNER_PATH = Path(__file__).parent / "designer" / "tables.js"
 LANGUAGES_PATH = DESIGNER_PATH.with_name("languages.json")
 ENGLISH_PATH = DESIGNER_PATH.with_name("english.json")
 
+KINDS = ("banner", "shield")
 _CODED = {"1.13": "give-legacy", "1.8": "give-1.12", "bedrock": "bedrock"}
 """The versions that name patterns by codes, and the forms of their texts."""
 
@@ -76,6 +77,7 @@ def designer_module() -> str:
         "LIMITS": {"loomLayers": LOOM_LAYERS},
         "LANGUAGES": {code: each["language"] for code, each in languages().items()},
         "ITEMS": dict(_pattern_items()),
+        "PACK": {kind: [f"entity/{kind}/{kind}_base", f"entity/{kind}_base"] for kind in KINDS},
         "TEXTS": english(),
         "STYLES": {"sheet": _styles(DESIGNER_PATH.with_name("designer.css"))},
     }

@@ -1,11 +1,15 @@
 """The designer in a real browser: edits, undo, commands, links, keys, and all widths."""
 
+import base64
+import io
 import json
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import Image
 from selenium.webdriver import ActionChains, Keys
 from studio_browser import PHONE, resize, wait_until
 from web_sites import served
@@ -202,6 +206,82 @@ def test_a_shield_is_drawn_as_a_shield(chromium: Any, site: str) -> None:
     assert run(chromium, f"{hidden}.length") == 4, "wind, direction, fabric, placement"
     press(chromium, '[aria-keyshortcuts="Control+Z"]')
     assert run(chromium, f"{banner}.getAttribute('kind')") == "standing"
+
+
+DROP = """
+const [root, name, text, done] = arguments;
+const bytes = Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
+const dataTransfer = new DataTransfer();
+dataTransfer.items.add(new File([bytes], name));
+root.querySelector(".app").dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
+const told = root.querySelector(".pack");
+const seen = () => {
+  if (told.textContent) done([told.textContent, told.matches(".fault")]);
+  else requestAnimationFrame(seen);
+};
+told.textContent = "";
+seen();
+"""
+COLOURS = """
+const [root, done] = arguments;
+const mean = (canvas, size) => {
+  const context = new OffscreenCanvas(1, 1).getContext("2d");
+  context.drawImage(canvas, ...size, 0, 0, 1, 1);
+  return [...context.getImageData(0, 0, 1, 1).data].slice(0, 3);
+};
+const live = root.querySelector("drapery-banner").shadowRoot.querySelector("canvas");
+const middle = [live.width / 2 - 2, live.height / 2 - 2, 4, 4];
+const face = root.querySelector('[data-pattern="creeper"] canvas');
+done([mean(face, [4, 4, 2, 2]), [face.width, face.height], mean(live, middle)]);
+"""
+
+
+def pack_of(**files: bytes) -> bytes:
+    """A zip in base64 with textures of entities, by their names with `__` for a folder."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files.items():
+            path = name.replace("__", "/")
+            archive.writestr(f"mine/assets/minecraft/textures/entity/{path}.png", data)
+    return base64.b64encode(content.getvalue())
+
+
+def sheet(side: int, *colour: int) -> bytes:
+    """A PNG of one colour."""
+    content = io.BytesIO()
+    Image.new("RGBA", (side, side), colour).save(content, "PNG")
+    return content.getvalue()
+
+
+def test_a_pack_shows_in_all_pictures_and_says_what_it_lacks(chromium: Any, site: str) -> None:
+    """One that is no pack changes nothing."""
+    open_designer(chromium, f"{site}/#white,creeper:white")
+    root, kinds = run(chromium, ROOT), f"{ROOT}.querySelector('.segments [data-value=ARG]').click()"
+
+    def drop(name: str, data: bytes) -> Any:
+        return chromium.execute_async_script(DROP, root, name, data.decode())
+
+    def colours() -> Any:
+        return chromium.execute_async_script(COLOURS, root)
+
+    grey, red, green = (sheet(128, *rgb, 255) for rgb in ((9, 9, 9), (200, 0, 0), (0, 200, 0)))
+    pack = pack_of(
+        banner_base=grey, banner__creeper=red, shield__creeper=green, banner__bricks=b"x"
+    )
+    told, is_wrong = drop("mine.zip", pack)
+    assert told.startswith("mine.zip: 3 textures. It lacks Base, Square bottom left,")
+    assert told.endswith(" + 35. Not used: entity/banner/bricks.") and not is_wrong
+    wait_until(lambda: colours()[2][0] > 120 and colours()[2][1] == 0)
+    assert colours()[0] == [23, 0, 0] and colours()[1] == [20, 40]
+    chromium.execute_script(kinds.replace("ARG", "shield"))
+    wait_until(lambda: colours()[:2] == [[0, 23, 0], [12, 22]])
+    wait_until(lambda: colours()[2][1] > 120 and colours()[2][0] == 0)
+    for data in (b"", base64.b64encode(b"PK" * 40), pack_of(block=red)):
+        told, is_wrong = drop("none.zip", data)
+        assert told.startswith("none.zip ") and is_wrong
+    assert colours()[0] == [0, 23, 0], "the pack is still there"
+    press(chromium, ".without")
+    wait_until(lambda: colours()[0] != [0, 23, 0])
 
 
 def test_the_loom_names_materials_and_steps(chromium: Any, site: str) -> None:

@@ -43,6 +43,8 @@ export class DraperyBanner extends HTMLElement {
   snapshot(): Promise<Blob>;
   /** A film of the moving cloth, WebM or MP4 by the browser; 4 seconds unless given. */
   record(seconds?: number): Promise<Blob>;
+  /** Textures in place of those of the scene, by the name of a pattern, and by "" the one below all patterns. */
+  pack: Partial<Record<"banner" | "shield", Record<string, ImageData>>> | null;
   /** The pixels that `drapery render` draws of the design with the options of the package; a page of
    * one file has none. */
   picture(): Promise<ImageData>;

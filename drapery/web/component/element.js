@@ -24,6 +24,7 @@ export class DraperyBanner extends Element {
   #films = 0; // that are recorded now
   #isChanged = false; // since the page was told
   #told = new Set();
+  #pack = null;
   #canvas = document.createElement("canvas");
   #slot = document.createElement("slot");
   #observers = [
@@ -52,8 +53,19 @@ export class DraperyBanner extends Element {
     else this.toggleAttribute("paused", paused);
   }
 
+  // Textures in place of those of the scene: { banner, shield }, each with pixels by the name of a pattern, and
+  // by "" what lies below all patterns.
+  get pack() {
+    return this.#pack;
+  }
+
+  set pack(pack) {
+    this.#pack = pack;
+    if (this.isConnected) this.#start();
+  }
+
   connectedCallback() {
-    takeOver(this, this.constructor.observedAttributes);
+    takeOver(this, ["pack", ...this.constructor.observedAttributes]);
     LESS_MOTION.addEventListener("change", this.#settle);
     this.#observers.forEach((each) => each.observe(this));
     if (!this.#player && !this.#isStarting) this.#start();
@@ -121,7 +133,8 @@ export class DraperyBanner extends Element {
   // The name of its scene, and what replaces parts of it: textures or the fabric.
   async source() {
     const kind = nameOf("kind", this.getAttribute("kind") ?? "standing", [...TABLES.kinds, ...scenesInPage()]);
-    return [kind, { fabric: kind === "shield" ? null : this.getAttribute("fabric") }];
+    const isShield = kind === "shield";
+    return [kind, { fabric: isShield ? null : this.getAttribute("fabric"), textures: this.#pack?.[isShield ? "shield" : "banner"] }];
   }
 
   // What a design looks like, in words.

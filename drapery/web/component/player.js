@@ -32,6 +32,7 @@ export class Player extends View {
     if (!isWanted()) return null;
     const { header, arrays } = retextured(unpack(scene.buffer), textures);
     const player = new Player(canvas, header, arrays);
+    player.isRetextured = Object.keys(textures).length > 0;
     player.setDesign(text);
     const plans = header.grip.map((_, number) => arrays[`plan${number}`]).map((plan) => (others ? woven(plan, others, fabric) : plan));
     player.cloths = await Promise.all(plans.map((plan) => Cloth.load(module, plan)));
@@ -178,6 +179,7 @@ export class Player extends View {
   // its own moves for the time of these options.
   async picture() {
     const { atlas } = this.arrays;
+    if (this.isRetextured) throw new Error("drapery: pictures with other textures need Python; use snapshot()");
     if (!this.header.still) throw new Error(`drapery: ${this.header.noPicture}`);
     const [materials, layers] = this.tables;
     const cloth = await Cloth.load(...(await Promise.all([MODULE, this.header.still].map(fileBytes))));

@@ -1,5 +1,6 @@
 // Textures of players from other addresses, in place of those of a scene.
 
+import { packed } from "../viewer/packing.js";
 import { short } from "./attributes.js";
 import { TABLES } from "./tables.js";
 
@@ -18,6 +19,11 @@ export async function readTexture(name, address) {
   if (!width || width % SIDE || width > 1024 || (height !== width && 2 * height !== width)) {
     throw new Error(`${shown} is ${width} x ${height} px; use 64 x 64 or 64 x 32, or a multiple`);
   }
+  return pixelsOf(image, width, height);
+}
+
+// The pixels of a picture: { data, width, height }.
+export function pixelsOf(image, width, height) {
   const context = new OffscreenCanvas(width, height).getContext("2d");
   context.drawImage(image, 0, 0);
   return context.getImageData(0, 0, width, height);
@@ -52,23 +58,39 @@ export function wholeSkin({ data: given, width, height }) {
   return { data, width, height: width };
 }
 
-// A scene with other textures, which lie below its own.
+// The layers that show a texture of a scene, and which part of one 64 texels wide. Pole and handle show the
+// sheet below all patterns, too.
+function showingLayers({ header, arrays: { layers, materials, vertexMaterials } }, name) {
+  const sheet = header.sheets?.indexOf(name) ?? -1;
+  if (sheet < 0) return { shown: [], area: [], ...header.textures?.[name] };
+  const own = materials[4 * vertexMaterials[header.flag]] + sheet;
+  const placeOf = (layer) => String(layers.subarray(7 * layer, 7 * layer + 4));
+  const every = name ? [own] : [...Array(layers.length / 7).keys()].filter((layer) => placeOf(layer) === placeOf(own));
+  return { shown: every, area: [0, 0, SIDE, SIDE] };
+}
+
+// A scene with other textures, which lie below its own. textures: pixels by name.
 export function retextured(scene, textures) {
   const { header, arrays } = scene;
-  if (!Object.keys(textures).length) return scene;
-  const [width, height] = header.atlas;
-  const parts = [["", { data: arrays.atlas, width, height }], ...Object.entries(textures)];
-  const wide = Math.max(...parts.map(([, part]) => part.width));
-  const high = parts.reduce((sum, [, part]) => sum + part.height, 0);
-  const atlas = new Uint8Array(4 * wide * high);
+  const parts = Object.entries(textures);
+  if (!parts.length) return scene;
+  const [wide, high] = header.atlas;
+  const widest = Math.max(wide, ...parts.map(([, part]) => 8 * part.width));
+  const { places, size } = packed(parts.map(([, { width, height }]) => [width, height]), widest);
+  const width = Math.max(wide, size[0]);
+  const atlas = new Uint8Array(4 * width * (high + size[1]));
   const layers = arrays.layers.slice();
-  let row = 0;
-  for (const [name, part] of parts) {
-    const { shown = [], area = [] } = header.textures?.[name] ?? {};
-    const [x, y, ...size] = area.map((length) => (length * part.width) / SIDE);
-    for (const layer of shown) layers.set([x, y + row, ...size, 255, 255, 255], 7 * layer);
-    for (let y = 0; y < part.height; y++, row++)
-      atlas.set(part.data.subarray(4 * y * part.width, 4 * (y + 1) * part.width), 4 * row * wide);
-  }
-  return { header: { ...header, atlas: [wide, high] }, arrays: { ...arrays, atlas, layers } };
+  const copy = (from, left, top) => {
+    for (let row = 0; row < from.height; row++)
+      atlas.set(from.data.subarray(4 * row * from.width, 4 * (row + 1) * from.width), 4 * ((top + row) * width + left));
+  };
+  copy({ data: arrays.atlas, width: wide, height: high }, 0, 0);
+  parts.forEach(([name, part], number) => {
+    const { shown, area } = showingLayers(scene, name);
+    const [left, top] = [places[number][0], high + places[number][1]];
+    const [x, y, ...extent] = area.map((length) => (length * part.width) / SIDE);
+    copy(part, left, top);
+    for (const layer of shown) layers.set([x + left, y + top, ...extent, 255, 255, 255], 7 * layer);
+  });
+  return { header: { ...header, atlas: [width, high + size[1]] }, arrays: { ...arrays, atlas, layers } };
 }

@@ -2,7 +2,6 @@
 
 import { TABLES } from "../component/tables.js";
 import { make, roving } from "./dom.js";
-import { FACE } from "./faces.js";
 import { foundPatterns } from "./search.js";
 
 /** A group of sixteen dyes. choose: called with a dye's name.
@@ -28,11 +27,11 @@ export class PatternGrid {
   constructor(patterns, choose, words) {
     this.patterns = patterns;
     this.cells = patterns.map((pattern) => {
-      const canvas = make("canvas", FACE);
+      const canvas = make("canvas");
       const label = { "aria-label": pattern.title, title: pattern.title, "data-pattern": pattern.name };
       const caption = make("span", { class: "caption", "aria-hidden": "true" }, pattern.caption);
       const button = make("button", { type: "button", class: "pattern", ...label, tabIndex: -1, onclick: () => choose(pattern.name) }, canvas, caption);
-      return { button, context: canvas.getContext("2d", { willReadFrequently: true }) };
+      return { button, canvas, context: canvas.getContext("2d", { willReadFrequently: true }) };
     });
     this.grid = make("div", { class: "pattern-grid", role: "group", "aria-label": words.label }, ...this.cells.map(({ button }) => button));
     this.nothing = make("p", { class: "hint", hidden: true }, words.nothing);
@@ -67,8 +66,10 @@ export class PatternGrid {
   /** Draw a picture with all patterns beside each other.
    * @param {ImageData} sheet @param {string} [chosen] the pattern of the layer that is edited */
   show(sheet, chosen) {
-    this.cells.forEach(({ button, context }, at) => {
-      context.putImageData(sheet, -at * FACE.width, 0, at * FACE.width, 0, FACE.width, FACE.height);
+    const size = { width: sheet.width / this.cells.length, height: sheet.height };
+    this.cells.forEach(({ button, canvas, context }, at) => {
+      if (canvas.height !== size.height) Object.assign(canvas, size);
+      context.putImageData(sheet, -at * size.width, 0, at * size.width, 0, size.width, size.height);
       button.setAttribute("aria-pressed", String(button.dataset.pattern === chosen));
     });
   }

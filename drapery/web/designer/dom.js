@@ -75,9 +75,9 @@ export function roving(holder, items, isList = false) {
   });
 }
 
-/** Draw a picture that is that wide into a canvas.
- * @param {HTMLCanvasElement} canvas @param {Uint8ClampedArray} pixels */
-export function drawPixels(canvas, pixels) {
-  const context = canvas.getContext("2d");
-  context?.putImageData(new ImageData(new Uint8ClampedArray(pixels), canvas.width, canvas.height), 0, 0);
+/** Draw a picture into a canvas, which gets its size.
+ * @param {HTMLCanvasElement} canvas @param {ImageData} picture */
+export function drawPixels(canvas, picture) {
+  Object.assign(canvas, { width: picture.width, height: picture.height });
+  canvas.getContext("2d")?.putImageData(picture, 0, 0);
 }

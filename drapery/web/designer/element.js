@@ -1,6 +1,6 @@
 // <drapery-designer design="white creeper:lime">: an editor of banners that needs no server.
 
-import { numberOf } from "../component/attributes.js";
+import { numberOf, short } from "../component/attributes.js";
 import { DesignError } from "../component/design.js";
 import { DraperyBanner, takeOver } from "../component/element.js";
 import { Element, define } from "../component/places.js";
@@ -9,12 +9,13 @@ import { TABLES } from "../component/tables.js";
 import { FormError, VERSIONS, notKept, plainText, writeCommand } from "./commands.js";
 import { PatternGrid, dyeButtons, menu, numberField, segments } from "./controls.js";
 import { drawPixels, icon, iconButton, make } from "./dom.js";
-import { FACE, Faces } from "./faces.js";
+import { Faces } from "./faces.js";
 import { LayerList } from "./layers.js";
 import { materials } from "./loom.js";
 import {
   MOTION, History, changedLayer, duplicatedLayer, movedLayer, shownOf, withLayer, withoutLayer, workOf, writeHash, writeShorthand,
 } from "./model.js";
+import { readPack } from "./pack.js";
 import { readHash, readPasted } from "./pasted.js";
 import { LANGUAGES, LIMITS, STYLES, TEXTS, TITLES } from "./tables.js";
 
@@ -30,6 +31,7 @@ const NARROW = 704; // a page so narrow hides the motion until it is wanted [px]
 const STORED = "drapery-designer"; // the key of the history in the browser's storage, before the page's path
 const LANGUAGE = ":language";
 const TOLD = 6000; // how long a line of news stands [ms]
+const MOST_NAMED = 6; // of what a pack lacks
 const CHAT = 256; // the longest line of the game's chat [characters]
 
 /** @typedef {import("./model.js").Work} Work */
@@ -62,8 +64,10 @@ export class DraperyDesigner extends Element {
   #chosen = null;
   #dye = "black";
   #version = VERSIONS[0];
-  /** @type {Faces | null} */
-  #faces = null;
+  /** @type {Record<string, Faces | null>} */
+  #every = {}; // the faces of banners and shields
+  /** @type {Awaited<ReturnType<typeof readPack>> | null} */
+  #pack = null;
   /** @type {Record<string, any>} */
   #ui = {};
   #built = false;
@@ -153,11 +157,9 @@ export class DraperyDesigner extends Element {
 
   async #start() {
     this.#built = true;
-    const [words, faces] = await Promise.all([readJson("words.bin").catch(() => ({})), Faces.open("standing.bin").catch(() => null), this.#speak(this.#wanted())]);
-    this.#words = words;
-    this.#faces = faces;
+    [this.#words] = await Promise.all([readJson("words.bin").catch(() => ({})), this.#open("banner"), this.#speak(this.#wanted())]);
     const own = this.getAttribute("design");
-    const breeze = { ...BREEZE, ...faces?.header.own };
+    const breeze = { ...BREEZE, ...this.#every.banner?.header.own };
     this.#try(() => (this.#history = new History(readPasted(own ?? START, breeze).work)));
     const before = History.read(kept(() => sessionStorage.getItem(STORED + location.pathname)));
     if (before && own === null) this.#history = before;
@@ -167,6 +169,18 @@ export class DraperyDesigner extends Element {
     this.#try(() => takeOver(this, ["design"]));
     this.#show();
     this.dispatchEvent(new CustomEvent("drapery-designer-ready", { bubbles: true }));
+  }
+
+  // The faces of what is edited; those of banners until others are there.
+  get #faces() {
+    return this.#every[this.#history.work.kind] ?? this.#every.banner;
+  }
+
+  async #open(/** @type {string} */ kind) {
+    const pack = this.#pack;
+    this.#every[kind] ??= null;
+    const faces = await Faces.open(kind, pack?.[/** @type {"banner" | "shield"} */ (kind)]).catch(() => null);
+    if (pack === this.#pack) this.#every[kind] = faces;
   }
 
   // The code of the language: that of the attribute, chosen before, or one that the user reads.
@@ -334,15 +348,15 @@ export class DraperyDesigner extends Element {
       make("div", { class: "mode-line" }, ui.heading, ui.hint, ui.done), ui.dyes.group);
     const made = ui.grid ? make("section", { class: "make", "aria-label": say("patterns") },
       make("div", { class: "search" }, make("h2", {}, say("patterns")), ui.grid.field, ui.grid.count), ui.grid.nothing, ui.grid.grid) : null;
-    const app = make("div", { class: "app", lang: this.#language.code, onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event) },
+    const app = make("div", { class: "app", lang: this.#language.code, onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event), ondragover: (/** @type {DragEvent} */ event) => event.preventDefault(), ondrop: this.#drop },
       bar, this.#stage(), dyes, made, this.#side());
     /** @type {ShadowRoot} */ (this.shadowRoot).replaceChildren(app);
   }
 
   #stage() {
     const say = this.#say.bind(this);
-    const flat = make("canvas", { ...FACE, class: "flat" });
-    const banner = new DraperyBanner();
+    const flat = make("canvas", { class: "flat" });
+    const banner = Object.assign(new DraperyBanner(), { pack: this.#pack });
     banner.append(flat);
     const fault = make("p", { class: "fault", role: "alert", hidden: true });
     banner.addEventListener("drapery-error", (event) => {
@@ -388,14 +402,19 @@ export class DraperyDesigner extends Element {
     const field = make("input", { type: "text", class: "paste", placeholder: say("pasteHint"), "aria-label": say("paste"), "aria-describedby": "paste-fault", spellcheck: false, autocomplete: "off",
       onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "Enter" && this.#read(field.value) });
     const wrong = make("p", { class: "fault", id: "paste-fault", role: "alert", hidden: true });
+    const chosen = make("input", { type: "file", accept: ".zip", hidden: true, "aria-label": say("openPack"), onchange: () => this.#take(chosen.files[0]) });
+    const pack = make("p", { class: "hint pack", role: "status" });
+    const without = make("button", { type: "button", class: "without", hidden: !this.#pack, onclick: () => this.#wear(null, "") }, say("withoutPack"));
+    const openPack = make("button", { type: "button", onclick: () => chosen.click() }, say("openPack"));
     const read = make("button", { type: "button", onclick: () => this.#read(field.value) }, say("read"));
-    Object.assign(this.#ui, { count, empty, version, command, about, copy, field, wrong, loom, film });
+    Object.assign(this.#ui, { count, empty, version, command, about, copy, field, wrong, loom, film, pack, without });
     return make("section", { class: "side", "aria-label": `${say("layers")}, ${say("share")}` },
       make("div", { class: "panel" }, make("div", { class: "head" }, make("h2", {}, say("layers")), count), empty, layers.list),
       make("div", { class: "panel" }, make("h2", {}, say("share")),
         make("div", { class: "row" }, version, copy), command, about,
         make("div", { class: "row" }, link, png, film, embed)),
-      make("div", { class: "panel" }, make("h2", {}, say("paste")), make("div", { class: "row" }, field, read), wrong), loom);
+      make("div", { class: "panel" }, make("h2", {}, say("paste")), make("div", { class: "row" }, field, read), wrong,
+        make("div", { class: "row" }, openPack, without, chosen), pack), loom);
   }
 
   #versionTitle(/** @type {string} */ id) {
@@ -423,6 +442,7 @@ export class DraperyDesigner extends Element {
     const { motion } = work;
     if (typeof this.#chosen === "number" && !work.layers[this.#chosen]) this.#chosen = null;
     ui.fault.hidden = true;
+    if (!(work.kind in this.#every)) this.#open(work.kind).then(() => this.#show());
     for (const [name, value] of Object.entries(this.#attributes()))
       if (ui.banner.getAttribute(name) !== value) ui.banner[name] = value;
     for (const [name, control] of Object.entries(ui.motion)) control.show(motion[/** @type {keyof Motion} */ (name)]);
@@ -447,7 +467,7 @@ export class DraperyDesigner extends Element {
    * @returns {Record<string, string | null>} */
   #attributes() {
     const { motion, kind } = this.#history.work;
-    const own = this.#faces?.header.own ?? {};
+    const own = this.#every.banner?.header.own ?? {};
     const changed = CHOSEN.map((name) => [name, motion[name] === own[name] ? null : String(motion[name])]);
     const moved = { kind: motion.placement, wind: String(motion.wind), direction: String(motion.direction) };
     return { design: this.design, ...(kind === "shield" ? { kind } : moved), ...Object.fromEntries(changed) };
@@ -556,10 +576,9 @@ export class DraperyDesigner extends Element {
     const { banner } = this.#ui;
     const { kind } = this.#history.work;
     try {
-      if (kind === "shield") return this.#give(await banner.snapshot(), "shield.png");
-      const { data, width, height } = await banner.picture();
-      const canvas = make("canvas", { width, height });
-      drawPixels(canvas, data);
+      if (kind === "shield" || this.#pack) return this.#give(await banner.snapshot(), `${kind}.png`);
+      const canvas = make("canvas");
+      drawPixels(canvas, await banner.picture());
       this.#give(await new Promise((done) => canvas.toBlob(done)), "banner.png");
     } catch (error) {
       this.#tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
@@ -597,6 +616,42 @@ export class DraperyDesigner extends Element {
       Object.assign(wrong, { hidden: false, textContent: this.#say("notRead", { reason: error.message }) });
     }
     field.setAttribute("aria-invalid", String(!wrong.hidden));
+  }
+
+  #drop = (/** @type {DragEvent} */ event) => {
+    const [file] = event.dataTransfer?.files ?? [];
+    if (!file) return; // a text goes into a field
+    event.preventDefault();
+    this.#take(file);
+  };
+
+  // Show all pictures with the textures of a pack.
+  async #take(/** @type {File} */ file) {
+    try {
+      const pack = await readPack(file);
+      const some = (/** @type {string[]} */ names) => names.slice(0, MOST_NAMED).join(", ") + (names.length > MOST_NAMED ? ` + ${names.length - MOST_NAMED}` : "");
+      const told = [this.#say("packShown", { name: short(file.name), count: Object.keys(pack.banner).length + Object.keys(pack.shield).length })];
+      if (pack.lacks.length) told.push(this.#say("packLacks", { what: some(pack.lacks.map(this.#caption)) }));
+      if (pack.refused.length) told.push(this.#say("packRefused", { what: some(pack.refused) }));
+      await this.#wear(pack, told.join(" "));
+    } catch (error) {
+      this.#tellPack(this.#say("notRead", { reason: /** @type {Error} */ (error).message }), true);
+    }
+  }
+
+  async #wear(/** @type {typeof this.#pack} */ pack, /** @type {string} */ told) {
+    this.#pack = pack;
+    await Promise.all(["banner", "shield"].map((kind) => this.#open(kind)));
+    this.#ui.banner.pack = pack;
+    this.#tellPack(told, false);
+    this.#show();
+  }
+
+  #tellPack(/** @type {string} */ text, /** @type {boolean} */ isWrong) {
+    const { pack, without } = this.#ui;
+    pack.textContent = text;
+    pack.classList.toggle("fault", isWrong);
+    without.hidden = !this.#pack;
   }
 
   // A text that is pasted outside of fields.

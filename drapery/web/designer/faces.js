@@ -2,23 +2,26 @@
 
 import { fileBytes } from "../component/shared.js";
 import { TABLES } from "../component/tables.js";
+import { retextured } from "../component/textures.js";
 import { unpack } from "../viewer/messages.js";
 
 /** @typedef {{ pattern: string, dye: string }} Layer */
 
-export const FACE = { width: 20, height: 40 }; // of a flag's front, whose left top is at 1, 1 of 64 [texels]
 const SIDE_UNITS = 64;
+/** @type {Record<string, { file: string, width: number, height: number }>} */
+const FRONTS = { banner: { file: "standing.bin", width: 20, height: 40 }, shield: { file: "shield.bin", width: 12, height: 22 } }; // whose left top is at 1, 1 of 64 [texels]
 
 export class Faces {
-  /** The faces of a scene's textures.
-   * @param {string} name of the scene's file */
-  static async open(name) {
-    const { header, arrays } = unpack((await fileBytes(name)).buffer);
-    return new Faces(header, arrays);
+  /** The faces of banners or shields, of other textures where a pack has them.
+   * @param {string} kind @param {Record<string, ImageData>} [textures] */
+  static async open(kind, textures = {}) {
+    const { header, arrays } = retextured(unpack((await fileBytes(FRONTS[kind].file)).buffer), textures);
+    return new Faces(header, arrays, FRONTS[kind]);
   }
 
-  /** @param {any} header @param {any} arrays */
-  constructor(header, arrays) {
+  /** @param {any} header @param {any} arrays @param {{ width: number, height: number }} front */
+  constructor(header, arrays, front) {
+    this.front = front;
     this.header = header;
     this.arrays = arrays;
     this.first = arrays.materials[4 * arrays.vertexMaterials[header.flag]];
@@ -40,9 +43,9 @@ export class Faces {
     const { atlas, layers } = this.arrays;
     const [left, top, width, height] = layers.subarray(7 * (this.first + sheet));
     const wide = this.header.atlas[0];
-    const mask = new Uint8Array(4 * FACE.width * FACE.height);
+    const mask = new Uint8Array(4 * this.front.width * this.front.height);
     for (let at = 0; at < mask.length / 4; at++) {
-      const [x, y] = [at % FACE.width, Math.floor(at / FACE.width)].map((texel) => texel + 1.5);
+      const [x, y] = [at % this.front.width, Math.floor(at / this.front.width)].map((texel) => texel + 1.5);
       const from = 4 * ((top + Math.floor((y * height) / SIDE_UNITS)) * wide + left + Math.floor((x * width) / SIDE_UNITS));
       mask.set(atlas.subarray(from, from + 4), 4 * at);
     }
@@ -50,9 +53,14 @@ export class Faces {
     return mask;
   }
 
-  /** The face of a design, as `drapery.banner.composite` makes it: RGBA of 20 x 40 texels.
-   * @param {{ base: string, layers: Layer[] }} design @returns {Uint8ClampedArray} */
-  face({ base, layers }) {
+  /** The face of a design, as `drapery.banner.composite` makes it: RGBA.
+   * @param {{ base: string, layers: Layer[] }} design */
+  face(design) {
+    return new ImageData(this.texels(design), this.front.width);
+  }
+
+  /** @param {{ base: string, layers: Layer[] }} design */
+  texels({ base, layers }) {
     const pixels = new Uint8ClampedArray(this.mask(""));
     for (let at = 3; at < pixels.length; at += 4) pixels[at] = 255;
     for (const layer of [{ pattern: "base", dye: base }, ...layers]) this.lay(pixels, layer);
@@ -78,17 +86,18 @@ export class Faces {
    * pattern would not be seen in the dye, it has another one.
    * @param {{ base: string, layers: Layer[] }} design @param {number} at @param {string} dye @param {string[]} patterns */
   previews({ base, layers }, at, dye, patterns) {
-    const below = this.face({ base, layers: layers.slice(0, at) });
+    const below = this.texels({ base, layers: layers.slice(0, at) });
     const above = layers.slice(at);
-    const sheet = new ImageData(FACE.width * patterns.length, FACE.height);
+    const { width, height } = this.front;
+    const sheet = new ImageData(width * patterns.length, height);
     const isPale = TABLES.rgb[dye].reduce((/** @type {number} */ sum, /** @type {number} */ part) => sum + part) > 382;
     patterns.forEach((pattern, number) => {
       let face = below.slice();
       this.lay(face, { pattern, dye });
       if (difference(below, face) < 0.005) this.lay((face = below.slice()), { pattern, dye: isPale ? "black" : "white" });
       for (const layer of above) this.lay(face, layer);
-      for (let row = 0; row < FACE.height; row++)
-        sheet.data.set(face.subarray(4 * FACE.width * row, 4 * FACE.width * (row + 1)), 4 * (row * sheet.width + number * FACE.width));
+      for (let row = 0; row < height; row++)
+        sheet.data.set(face.subarray(4 * width * row, 4 * width * (row + 1)), 4 * (row * sheet.width + number * width));
     });
     return sheet;
   }
@@ -111,8 +120,8 @@ export class Faces {
   /** Whether a layer changes what is seen of a design.
    * @param {string} base @param {Layer[]} layers @param {number} number */
   isSeen(base, layers, number) {
-    const without = this.face({ base, layers: layers.toSpliced(number, 1) });
-    return difference(without, this.face({ base, layers })) > 0.02;
+    const without = this.texels({ base, layers: layers.toSpliced(number, 1) });
+    return difference(without, this.texels({ base, layers })) > 0.02;
   }
 }
 
