@@ -70,10 +70,10 @@ def models() -> Image.Image:
         find_garment("cape"),
         player_of(PlayerSettings(motion="walk")),
     )
-    picture = Image.new("RGBA", (4 * 144, 3 * 176))
+    picture = Image.new("RGB", (4 * 144, 3 * 176))
     for row, each in enumerate(shown):
         for column in range(4):
-            frame = draw(each, view="iso", size=(144, 176), time=2 + 0.25 * column)
+            frame = draw(each, view="iso", size=(144, 176), background=SKY, time=2 + 0.25 * column)
             picture.paste(Image.fromarray(frame.pixels), (144 * column, 176 * row))
     return picture
 
