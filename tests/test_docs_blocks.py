@@ -97,8 +97,10 @@ def test_the_golden_test_of_the_guide_passes_after_its_update(
     reader.type(TUTORIAL, make_pack)
     reader.run("python make_pack.py")
     page = DOCS / "guides" / "golden-images.md"
-    program = next(block for block in blocks(page) if block.language == "python")
-    (reader.folder / "test_creeper.py").write_text(program.text, "utf-8")
+    programs = [block.text for block in blocks(page) if block.language == "python"]
+    assert "def test_creeper(golden)" in programs[0] and "(golden_numbers)" in programs[1]
+    for number, program in enumerate(programs):
+        (reader.folder / f"test_{number}.py").write_text(program, "utf-8")
     for options, code in ((" ", 1), (" --drapery-update", 0), (" ", 0)):
         assert reader.run("pytest" + options)[0] == code
 

@@ -1,6 +1,7 @@
 """Golden-image tests: a pytest plugin, and the same checks without writing Python.
 
-With pytest the fixture `golden`, of the type `Golden`, compares a picture with its golden file.
+With pytest the fixture `golden`, of the type `Golden`, compares a picture with its golden file, and
+`golden_numbers` positions and other numbers.
 `read_cases` and `check_cases` check a TOML or YAML file of cases. `agrees` compares two pictures
 within a `Tolerance`. `check_style` tests a style of your own, and `check_garment` a garment. Names
 are loaded when they are first used.

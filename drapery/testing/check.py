@@ -68,12 +68,39 @@ def check_golden(check: GoldenCheck, picture: Picture, notes: Notes) -> GoldenRe
     closest = min(known, key=lambda each: each.distance, default=_Approved(check.path))
     target = closest.path if check.variant is None else variant_path(check.path, check.variant)
     if check.update:
-        return _written(check, target, picture, notes)
+        return _written(target, _content(target, picture, notes))
     line = closest.line
     if closest.picture is not None:
         line = explain_change(closest.picture, picture, closest.notes, notes(), check.tolerance)
     line = line or f"no golden at {check.path}"
-    return _failed(check, line, target, closest.picture, picture, notes)
+    update = GoldenUpdate(target, _content(target, picture, notes))
+    return _failed(check, line, update, closest.picture, picture)
+
+
+def check_content(
+    check: GoldenCheck, content: bytes, changed: Callable[[bytes], str]
+) -> GoldenResult:
+    """Compare what is no picture with its approved files, or write one of them in an update.
+
+    content: of a golden of the present values. changed: what differs from the content of a golden
+    in a line, or nothing; it raises GoldenError.
+    """
+    lines = []
+    for path in approved_paths(check.path):
+        try:
+            line = changed(_read(path))
+        except OSError as error:
+            return GoldenResult(f"{path}: {reason(error)}; make the file readable and writable")
+        except GoldenError as error:
+            line = f"{path}: {error}; restore the file"
+        if not line:
+            return GoldenResult()
+        lines.append(line)
+    target = check.path if check.variant is None else variant_path(check.path, check.variant)
+    if check.update:
+        return _written(target, content)
+    line = lines[0] if lines else f"no golden at {check.path}"
+    return _failed(check, line, GoldenUpdate(target, content))
 
 
 @dataclass(frozen=True)
@@ -101,10 +128,10 @@ class _Approved:
 
 def _compared(check: GoldenCheck, path: Path, picture: Picture) -> _Approved:
     """Compare with one file. Raises OSError."""
-    with open_user_file(path) as file:
-        data = file.read(MAX_FILE + 1)
-    if len(data) > MAX_FILE:
-        return _Approved(path, line=f"{path}: it has over {MAX_FILE} bytes; draw smaller pictures")
+    try:
+        data = _read(path)
+    except GoldenError as error:
+        return _Approved(path, line=f"{path}: {error}")
     if path.suffix == ".sha256":
         now = fingerprint(picture)
         was = data.decode("ascii", "replace").strip()
@@ -118,15 +145,24 @@ def _compared(check: GoldenCheck, path: Path, picture: Picture) -> _Approved:
     return _Approved(path, found.agrees, found, expected, notes)
 
 
+def _read(path: Path) -> bytes:
+    """What a golden holds. Raises OSError, and GoldenError for one that is too large."""
+    with open_user_file(path) as file:
+        data = file.read(MAX_FILE + 1)
+    if len(data) > MAX_FILE:
+        raise GoldenError(f"it has over {MAX_FILE} bytes; draw smaller pictures")
+    return data
+
+
 def _content(path: Path, picture: Picture, notes: Notes) -> bytes:
     return fingerprint(picture) if path.suffix == ".sha256" else encode(picture, notes())
 
 
-def _written(check: GoldenCheck, path: Path, picture: Picture, notes: Notes) -> GoldenResult:
+def _written(path: Path, content: bytes) -> GoldenResult:
     try:
         make_folder(path.parent)
         with replacing(path) as beside:
-            beside.write_bytes(_content(path, picture, notes))
+            beside.write_bytes(content)
     except OutputError as error:
         return GoldenResult(str(error))
     return GoldenResult(written=path)
@@ -135,13 +171,11 @@ def _written(check: GoldenCheck, path: Path, picture: Picture, notes: Notes) -> 
 def _failed(
     check: GoldenCheck,
     line: str,
-    target: Path,
-    expected: Picture | None,
-    picture: Picture,
-    notes: Notes,
+    update: GoldenUpdate,
+    expected: Picture | None = None,
+    picture: Picture | None = None,
 ) -> GoldenResult:
     """Keep the failure for the report, and say what to do."""
-    update = GoldenUpdate(target, _content(target, picture, notes))
     words = check.test, check.label, expected, picture, line, update
     try:
         kept = keep_failure(
@@ -151,4 +185,5 @@ def _failed(
         )
     except OutputError as error:
         return GoldenResult(f"{line}; {error}")
-    return GoldenResult(line, kept, failure_id(check.test, check.label))
+    shown = None if picture is None else kept
+    return GoldenResult(line, shown, failure_id(check.test, check.label))

@@ -101,14 +101,15 @@ def keep_failure(
 ) -> Path:
     """Write a failure's pictures and facts; returns the picture to look at first.
 
-    expected, actual: what `as_picture` takes; None if nothing is known of the expected one.
+    expected, actual: what `as_picture` takes; None if nothing is known of the expected one, and
+        both for what has no picture, of which the report shows the line.
     update: what `accept_failures` writes. root: the folder in which `accept_failures` will run; by
     default the present one. tolerance: what does not count. Raises OutputError.
     """
     make_folder(folder)
     stem = failure_id(test, label)
-    pictures = {"actual": as_picture(actual)}
-    if expected is not None:
+    pictures = {} if actual is None else {"actual": as_picture(actual)}
+    if actual is not None and expected is not None:
         pictures["expected"] = as_picture(expected)
         pairs = list(_pairs(pictures["expected"], pictures["actual"]))
         panels = [difference_panel(*pair, tolerance=tolerance) for pair in pairs]
@@ -162,14 +163,14 @@ def markdown_report(folder: Path) -> str:
     """A table of all failures in a folder, for the summary of a job. Raises OutputError."""
     failures = failures_in(folder)
     if not failures:
-        return "All golden pictures are as before.\n"
+        return "All goldens are as before.\n"
     rows = [f"| {_cell(each.name)} | {_cell(each.line)} |" for each in failures[:_MOST_ROWS]]
     if len(failures) > _MOST_ROWS:
         rows.append(f"| and {len(failures) - _MOST_ROWS} more | |")
     head = [
-        f"**{counted(len(failures), 'golden picture')} changed.**",
+        f"**{counted(len(failures), 'golden')} changed.**",
         "",
-        "| picture | what changed |",
+        "| golden | what changed |",
     ]
     return "\n".join([*head, "|---|---|", *rows, ""])
 
@@ -293,7 +294,7 @@ def _page_of(failures: list[FailedPicture], folder: Path, root: Path | None) -> 
         Environment(autoescape=True)
         .from_string(texts["html"])
         .render(
-            summary=f"{counted(len(failures), 'picture')} not as expected.",
+            summary=f"{counted(len(failures), 'golden')} not as expected.",
             folder=shlex.quote(_relative(folder, root) or folder.name),
             style=texts["css"],
             script=texts["js"],

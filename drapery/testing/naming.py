@@ -1,8 +1,8 @@
 """Where the goldens of a pytest test lie, and which goldens may belong to a test.
 
-A golden is `goldens/<test file>/<test>[<label>].png` beside the test's file, or `.sha256`. A digest
-of the whole name replaces what a file name cannot hold. Other approved pictures of the same golden
-have `~<variant>` before the ending.
+A golden is `goldens/<test file>/<test>[<label>].png` beside the test's file; numbers are `.npz`,
+hashes `.sha256`. A digest of the whole name replaces what a file name cannot hold. Other approved
+pictures of the same golden have `~<variant>` before the ending.
 """
 
 import hashlib
@@ -11,7 +11,7 @@ from pathlib import Path
 from unicodedata import category
 
 FOLDER = "goldens"
-ENDINGS = (".png", ".sha256")
+ENDINGS = (".png", ".npz", ".sha256")
 """The endings of goldens; no other file is written or deleted."""
 MAX_NAME = 200
 """The most bytes of a golden's name; file systems take 255 with the ending."""

@@ -1,4 +1,4 @@
-"""The pytest plugin: the fixture `golden`, its flags, and a report of failures.
+"""The pytest plugin: the fixtures `golden` and `golden_numbers`, their flags, a report of failures.
 
 Goldens are in `goldens/<test file>/` beside the test. Each process that runs tests records which
 goldens they name (`drapery.testing.usage`); workers of pytest-xdist send their record to the main
@@ -18,13 +18,17 @@ from drapery.errors import DraperyError, counted
 if TYPE_CHECKING:
     from drapery import Banner
     from drapery.comparison import Picture, Tolerance
+    from drapery.testing.check import GoldenCheck, GoldenResult
     from drapery.testing.usage import GoldenUsage
 
 Golden = Callable[..., None]
-"""The type of the fixture `golden`: `golden(picture, name, *, tolerance, ...)`."""
+"""The type of the fixtures `golden(picture, name, *, tolerance, ...)` and `golden_numbers(numbers,
+name, *, within)`."""
 
 _FAULTS: pytest.StashKey[list[str]] = pytest.StashKey()
 """What the goldens of this try of a test found, until the test fails because of it."""
+_LABELS: pytest.StashKey[list[str]] = pytest.StashKey()
+"""The labels of the goldens of this try of a test."""
 _USAGE: "pytest.StashKey[GoldenUsage]" = pytest.StashKey()
 _NAMES: pytest.StashKey[dict[Path, dict[str, str]]] = pytest.StashKey()
 """For each folder of goldens the names of its files, by their names without case."""
@@ -133,6 +137,7 @@ def pytest_collection_finish(session: pytest.Session) -> None:
 def pytest_runtest_setup(item: pytest.Item) -> None:
     """Each try of a test begins anew."""
     item.stash[_FAULTS] = []
+    item.stash[_LABELS] = []
     _forget(item.config, item.nodeid)
 
 
@@ -182,7 +187,6 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
         defaults are those of `drapery_tolerance` and so on in pytest's configuration; without any,
         nothing may differ, which is right for the soft backend.
     """
-    labels: list[str] = []
 
     def check(
         picture: Any,
@@ -196,10 +200,9 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
     ) -> None:
         __tracebackhide__ = True
         try:
-            labels.append(_label(name, labels, backend))
             fault = _check(
                 request,
-                labels[-1],
+                _label(request.node, name, backend),
                 picture,
                 backend=backend,
                 tolerance=_tolerance(request.config, limits, hashed),
@@ -212,8 +215,43 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
             request.node.stash[_FAULTS].append(fault)
 
     yield check
-    faults = _taken_faults(request.node)
-    if faults:  # of a call after the test, in another fixture
+    _fail_late(request.node)
+
+
+@pytest.fixture
+def golden_numbers(request: pytest.FixtureRequest) -> Iterator[Golden]:
+    """Compare numbers with their golden file: `golden_numbers(positions, within=1e-6)`.
+
+    A test goes on after numbers that differ, and fails at its end with all of them.
+
+    numbers: an array, a number, a mapping of names to arrays, or the path of a file, such as a
+        3-D model, of which the golden has the size and the SHA-256.
+    name: the golden's name within the test, as of `golden`.
+    within: the most by which a number may differ, in its own unit; by default it may not.
+    """
+
+    def check(numbers: Any, name: str | None = None, *, within: float = 0.0) -> None:
+        __tracebackhide__ = True
+        from drapery.testing.numbers import check_numbers, is_file
+
+        try:
+            label = _label(request.node, name, "soft")
+            path = _golden_path(request, label, ".sha256" if is_file(numbers) else ".npz")
+            result = check_numbers(_golden_check(request, label, path), numbers, within)
+            fault = _told(request, label, result)
+        except DraperyError as error:
+            fault = str(error)
+        if fault is not None:
+            request.node.stash[_FAULTS].append(fault)
+
+    yield check
+    _fail_late(request.node)
+
+
+def _fail_late(item: pytest.Item) -> None:
+    """Fail with what a call after the test has found, in another fixture."""
+    faults = _taken_faults(item)
+    if faults:
         pytest.fail("\n".join(faults), pytrace=False)
 
 
@@ -223,8 +261,9 @@ def _taken_faults(item: pytest.Item) -> list[str]:
     return faults
 
 
-def _label(name: str | None, used: list[str], backend: str) -> str:
+def _label(item: pytest.Item, name: str | None, backend: str) -> str:
     """The label of a golden. Raises GoldenError if the test has used it."""
+    used = item.stash[_LABELS]
     label = name or f"{len(used) + 1}"
     if backend not in ("soft", "auto"):
         label = f"{label}-{backend}"
@@ -232,6 +271,7 @@ def _label(name: str | None, used: list[str], backend: str) -> str:
         from drapery.testing.golden import GoldenError
 
         raise GoldenError(f"golden {label!r} is named twice in this test; use another name")
+    used.append(label)
     return label
 
 
@@ -256,8 +296,24 @@ def _check(
     ending: str,
     design: "tuple[Banner, tuple[str | Path, ...]] | None",
 ) -> str | None:
-    from drapery.testing.naming import golden_folder, golden_stem
     from drapery.testing.passing import passes
+
+    path = _golden_path(request, label, ending)
+    if passes(path, picture, tolerance):
+        return None
+    from drapery.testing.check import check_golden
+
+    check = _golden_check(request, label, path, tolerance)
+    result = check_golden(check, _drawn(picture, backend), lambda: _notes(design))
+    return _told(request, label, result)
+
+
+def _golden_path(request: pytest.FixtureRequest, label: str, ending: str) -> Path:
+    """Where the golden of a test lies, which the test names by this.
+
+    Raises GoldenError if another golden's name differs only in case.
+    """
+    from drapery.testing.naming import golden_folder, golden_stem
     from drapery.testing.usage import same_but_for_case
 
     item, config = request.node, request.config
@@ -272,31 +328,40 @@ def _check(
             f"golden {label!r}: {path.name} differs from {other} only in case; use another name"
         )
     usage.named.add(str(path))
-    if passes(path, picture, tolerance):
-        return None
-    from drapery.testing.check import GoldenCheck, check_golden
+    return path
 
-    result = check_golden(
-        GoldenCheck(
-            test=item.nodeid,
-            label=label,
-            path=path,
-            tolerance=tolerance,
-            update=bool(config.getoption("--drapery-update")),
-            variant=config.getoption("--drapery-variant"),
-            report=_report_places(config)[0],
-            root=config.invocation_params.dir,
-        ),
-        _drawn(picture, backend),
-        lambda: _notes(design),
+
+def _golden_check(
+    request: pytest.FixtureRequest, label: str, path: Path, tolerance: "Tolerance | None" = None
+) -> "GoldenCheck":
+    """What to compare, and what the flags say to do where it differs. tolerance: of a picture."""
+    from drapery.comparison import EXACT
+    from drapery.testing.check import GoldenCheck
+
+    config = request.config
+    return GoldenCheck(
+        test=request.node.nodeid,
+        label=label,
+        path=path,
+        tolerance=tolerance or EXACT,
+        update=bool(config.getoption("--drapery-update")),
+        variant=config.getoption("--drapery-variant"),
+        report=_report_places(config)[0],
+        root=config.invocation_params.dir,
     )
+
+
+def _told(request: pytest.FixtureRequest, label: str, result: "GoldenResult") -> str | None:
+    """Count what was written or kept for the report; the fault in a line, or None."""
+    item, config = request.node, request.config
     if result.written is not None:
-        usage.written += 1
+        config.stash[_USAGE].written += 1
     elif result.failure is not None:
         config.stash[_ENTRIES].setdefault(item.nodeid, []).append(result.failure)
     if result.fault is None:
         return None
-    remedy = f"; see {result.picture}; accept it with --drapery-update" if result.picture else ""
+    remedy = f"; see {result.picture}" if result.picture else ""
+    remedy += "; accept it with --drapery-update" if result.failure else ""
     return f"golden {label!r}: {result.fault}{remedy}"
 
 

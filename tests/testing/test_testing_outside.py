@@ -140,7 +140,7 @@ def test_harmed_and_unused_goldens_are_named_by_workers_in_one_report(
         assert says in failed.stdout
         assert goldens[name].read_bytes() == data[name]
     page = (project / "drapery-report/index.html").read_text()
-    assert "4 pictures not as expected" in page
+    assert "4 goldens not as expected" in page
 
     assert run("--drapery-update").returncode == 0
     listed, pruned = run("-n", "2").stdout, run("-n", "2", "--drapery-prune").stdout

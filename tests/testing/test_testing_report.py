@@ -40,7 +40,7 @@ def test_a_changed_texel_is_named_accepted_and_then_as_before(drapery: Run, pack
     code, out, _ = drapery("golden", "check", "cases.toml", "--summary", "summary.md")
     assert code == 1 and "0 as before, 3 not" in out
     summary = Path("summary.md").read_text(encoding="utf-8")
-    assert "**3 golden pictures changed.**" in summary
+    assert "**3 goldens changed.**" in summary
     assert "layer 1 \\(creeper, red\\) has 1 changed texel" in summary
     page = Path("drapery-report/index.html").read_text(encoding="utf-8")
     assert page.count('<section id="') == 3 and page.count("data:image/png") == 9
@@ -97,7 +97,7 @@ def test_texts_in_the_table_are_shown_as_they_are(
     monkeypatch.chdir(tmp_path)
     failure("one.png")
     assert "| case \\[\\<one\\>\\] | a\\|b \\`c\\` \\# d |" in markdown_report(Path("report"))
-    assert markdown_report(Path("empty")) == "All golden pictures are as before.\n"
+    assert markdown_report(Path("empty")) == "All goldens are as before.\n"
 
 
 def test_pytest_writes_the_page_where_it_is_told(pytester: pytest.Pytester) -> None:
