@@ -65,6 +65,7 @@ if TYPE_CHECKING:
         save_for as save_for,
     )
     from drapery.render.encode.png import apng_bytes as apng_bytes, png_bytes as png_bytes
+    from drapery.render.encode.sheet import save_sprites as save_sprites
     from drapery.render.encode.webp import webp_bytes as webp_bytes
     from drapery.render.export import save_scenes as save_scenes
     from drapery.render.flatten import composite_layers as composite_layers

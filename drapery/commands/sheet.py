@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from drapery.commands import options as o
-from drapery.commands.notices import compile_notice, say
+from drapery.commands.notices import compile_notice, progress, say
 
 app = typer.Typer(
     help="Write a sheet of many labelled pictures, as a picture or a page.", no_args_is_help=True
@@ -70,6 +70,46 @@ def write_rotations(
     check_target(out, "still", "page")
     with compile_notice():
         rotations_sheet(o.design_of(words), settings).save(out)
+
+
+@app.command("sprites")
+@o.pictured("loop", without=("placement", "rotation", "facing", "turntable"))
+def write_sprites(
+    out: Annotated[
+        Path,
+        typer.Option(
+            "-o", "--out", metavar="NAME.sheet.png", help="The sheet; NAME.sheet.json is beside it."
+        ),
+    ],
+    directions: Annotated[
+        int, typer.Option(help="1, 2, 4, 8 or 16; each is a row, south first, then clockwise.")
+    ] = 8,
+    seconds: o.SecondsOption = 1.0,
+    fps: o.FpsOption = 8.0,
+    size: Annotated[
+        str, typer.Option(help="Size of each picture in pixels, before large pixels become one.")
+    ] = "128x128",
+    **words: Any,
+) -> None:
+    """One design as a game's sprites: a loop from each direction."""
+    from drapery.render import save_sprites
+    from drapery.render.encode.sheet import check_sheet
+    from drapery.sheets import draw_sprites
+
+    settings = o.settings_of(words | {"size": size})
+    check_sheet(out)
+    with compile_notice():
+        design = o.design_of(words)
+        with progress("directions", directions) as tick:
+            loops = draw_sprites(
+                design,
+                settings,
+                directions=directions,
+                seconds=seconds,
+                fps=fps,
+                on_direction=tick,
+            )
+    save_sprites(loops, fps, out)
 
 
 @app.command("packs")

@@ -1,7 +1,7 @@
 """Sheets of many labelled pictures: patterns, rotations, packs, styles, garments, loom steps.
 
-Each function makes a `PictureSheet`, which is saved as a picture or as a page of HTML. Names are
-loaded when they are first used.
+Each function makes a `PictureSheet`, which is saved as a picture or as a page of HTML;
+`draw_sprites` makes the loops of a game's sprite sheet. Names are loaded when they are first used.
 """
 
 from typing import TYPE_CHECKING
@@ -23,5 +23,6 @@ if TYPE_CHECKING:
     )
     from drapery.sheets.letters import cloth_row as cloth_row, faces_row as faces_row
     from drapery.sheets.sheet import PictureSheet as PictureSheet, SheetCell as SheetCell
+    from drapery.sheets.sprites import draw_sprites as draw_sprites
 else:
     import_lazily(__name__)

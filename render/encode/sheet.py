@@ -5,14 +5,16 @@ The layout is the "JSON hash" that TexturePacker and Aseprite export.
 
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import accumulate, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drapery.errors import OutputError
-from drapery.output_files import replacing
+from drapery.errors import OptionError, OutputError, shown
+from drapery.file_formats import MAX_FPS
+from drapery.output_files import check_writable, replacing
 from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.png import png_bytes
 from drapery.render.pixels import HasPixels, Pixels
@@ -20,13 +22,14 @@ from drapery.render.pixels import HasPixels, Pixels
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte
 
+ENDING = ".sheet.png"
 MAX_SIDE = 16_384  # the largest texture that common graphics hardware takes
 
 
-def sheet_pixels(frames: Sequence[HasPixels]) -> Pixels:
-    """The frames row by row in a sheet about as wide as high. Raises OutputError if too large."""
+def sheet_pixels(frames: Sequence[HasPixels], columns: int) -> Pixels:
+    """The frames row by row, so many in a row. Raises OutputError if the sheet is too large."""
     height, width = frames[0].pixels.shape[:2]
-    columns, rows = grid_of(len(frames), width, height)
+    rows = -(-len(frames) // columns)
     if max(columns * width, rows * height) > MAX_SIDE:
         raise OutputError(
             f"{len(frames)} frames of {width}x{height} make a sheet of {columns * width}x"
@@ -39,11 +42,18 @@ def sheet_pixels(frames: Sequence[HasPixels]) -> Pixels:
     return sheet
 
 
-def sheet_index(frames: Sequence[HasPixels], fps: float, name: str) -> dict[str, Any]:
-    """The JSON beside the sheet; `name` is the sheet's file name, durations are in ms."""
+def sheet_index(
+    frames: Sequence[HasPixels], columns: int, fps: float, name: str, tags: Mapping[str, int]
+) -> dict[str, Any]:
+    """The JSON beside the sheet.
+
+    columns: frames in a row. name: the sheet's file name. tags: loops that follow each other, and
+    the number of frames of each. Durations are in ms.
+    """
     height, width = frames[0].pixels.shape[:2]
-    columns, rows = grid_of(len(frames), width, height)
-    times, whole = frame_delays(fps, 1000), {"x": 0, "y": 0, "w": width, "h": height}
+    whole = {"x": 0, "y": 0, "w": width, "h": height}
+    ends = list(accumulate(tags.values()))
+    delays = [each for count in tags.values() for each in islice(frame_delays(fps, 1000), count)]
     return {
         "frames": {
             f"frame_{number:04d}.png": {
@@ -52,18 +62,19 @@ def sheet_index(frames: Sequence[HasPixels], fps: float, name: str) -> dict[str,
                 "trimmed": False,
                 "spriteSourceSize": whole,
                 "sourceSize": {"w": width, "h": height},
-                "duration": next(times),
+                "duration": delay,
             }
-            for number in range(len(frames))
+            for number, delay in enumerate(delays)
         },
         "meta": {
             "app": "drapery",
             "image": name,
             "format": "RGBA8888",
-            "size": {"w": columns * width, "h": rows * height},
+            "size": {"w": columns * width, "h": -(-len(frames) // columns) * height},
             "scale": "1",
             "frameTags": [
-                {"name": "loop", "from": 0, "to": len(frames) - 1, "direction": "forward"}
+                {"name": tag, "from": end - count, "to": end - 1, "direction": "forward"}
+                for (tag, count), end in zip(tags.items(), ends, strict=True)
             ],
         },
     }
@@ -72,16 +83,54 @@ def sheet_index(frames: Sequence[HasPixels], fps: float, name: str) -> dict[str,
 def write_sheet(
     path: Path, frames: Iterable[HasPixels], fps: float | None, matte: "Matte | None"
 ) -> None:
-    """Write NAME.sheet.png and NAME.sheet.json. Raises OutputError."""
+    """Write NAME.sheet.png and NAME.sheet.json, about as wide as high. Raises OutputError."""
     every = list(frames)
-    index = json.dumps(sheet_index(every, fps or 1, path.name), indent=1) + "\n"
-    png = png_bytes(sheet_pixels(every))
+    height, width = every[0].pixels.shape[:2]
+    columns = columns_of(len(every), width, height)
+    _write(path, every, columns, fps or 1, {"loop": len(every)})
+
+
+def save_sprites(loops: Mapping[str, Sequence[HasPixels]], fps: float, path: str | Path) -> None:
+    """Write loops as one sprite sheet, each in a row of its own, and the JSON beside it.
+
+    loops: frames of one size by name, equally many in each; the names are tags in the JSON.
+    fps: frames/s, above 0.
+    Raises OptionError for a name that does not end with `.sheet.png`, and for loops that differ in
+    size or number, OutputError for a sheet that is too large or cannot be written.
+    """
+    target = check_sheet(path)
+    sizes = {(len(frames), *frame.pixels.shape) for frames in loops.values() for frame in frames}
+    if len(sizes) != 1 or not all(loops.values()):
+        raise OptionError("loops of a sprite sheet differ in number or size of frames")
+    if not (math.isfinite(fps) and 0 < fps <= MAX_FPS):
+        raise OptionError(f"fps {fps:g}: give a number above 0, up to {MAX_FPS}")
+    tags = {name: len(frames) for name, frames in loops.items()}
+    every = [frame for frames in loops.values() for frame in frames]
+    _write(target, every, max(tags.values()), fps, tags)
+
+
+def check_sheet(path: str | Path) -> Path:
+    """The path of a sprite sheet that can be written, before anything is drawn.
+
+    Raises OptionError for another ending, OutputError for a place that cannot be written.
+    """
+    target = Path(path)
+    if not target.name.endswith(ENDING):
+        raise OptionError(f"{shown(target.name)} is no sprite sheet; end the name with {ENDING}")
+    check_writable(target)
+    return target
+
+
+def _write(
+    path: Path, frames: Sequence[HasPixels], columns: int, fps: float, tags: Mapping[str, int]
+) -> None:
+    index = json.dumps(sheet_index(frames, columns, fps, path.name, tags), indent=1) + "\n"
+    png = png_bytes(sheet_pixels(frames, columns))
     with replacing(path) as sheet, replacing(path.with_suffix(".json")) as beside:
         sheet.write_bytes(png)
         beside.write_text(index)
 
 
-def grid_of(count: int, width: int, height: int) -> tuple[int, int]:
-    """Columns and rows for `count` frames in a sheet about as wide as high."""
-    columns = min(count, max(1, round(math.sqrt(count * height / width))))
-    return columns, -(-count // columns)
+def columns_of(count: int, width: int, height: int) -> int:
+    """Columns for `count` frames in a sheet about as wide as high."""
+    return min(count, max(1, round(math.sqrt(count * height / width))))
