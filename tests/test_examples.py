@@ -35,6 +35,7 @@ PROGRAMS = {
     "own_garment": ("towel.png",),
     "own_force": ("forces.npz",),
     "positions": ("positions.npz",),
+    "sprites": ("banner.sheet.png", "banner.sheet.json"),
     "compare_solvers": ("stretch.csv",),
 }
 """Programs of at most fifteen lines, and what each leaves in the current folder."""

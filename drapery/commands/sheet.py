@@ -93,7 +93,7 @@ def write_sprites(
 ) -> None:
     """One design as a game's sprites: a loop from each direction."""
     from drapery.render import save_sprites
-    from drapery.render.encode.sheet import check_sheet
+    from drapery.render.encode import check_sheet
     from drapery.sheets import draw_sprites
 
     settings = o.settings_of(words | {"size": size})

@@ -12,7 +12,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drapery.errors import OptionError
+from drapery.errors import OptionError, shown
 from drapery.file_formats import FORMATS, FileFormat, Kind, format_of, formats_of
 from drapery.output_files import check_writable, replacing
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte
     from drapery.render.pixels import HasPixels
 
+SHEET = ".sheet.png"
 Progress = Callable[[int, int | None], None]
 
 
@@ -88,6 +89,14 @@ def check_target(path: str | Path, *kinds: Kind) -> FileFormat:
     else:
         check_writable(Path(path))
     return format
+
+
+def check_sheet(path: str | Path) -> Path:
+    """The path of a sprite sheet, before anything is drawn. Raises errors as `check_target`."""
+    target = Path(path)
+    if check_target(target, "loop").ending != SHEET:
+        raise OptionError(f"{shown(target.name)} is no sprite sheet; end the name with {SHEET}")
+    return target
 
 
 def check_fps(fps: float, format: FileFormat) -> None:

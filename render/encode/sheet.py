@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drapery.errors import OptionError, OutputError, shown
+from drapery.errors import OptionError, OutputError
 from drapery.file_formats import MAX_FPS
-from drapery.output_files import check_writable, replacing
+from drapery.output_files import replacing
+from drapery.render.encode import check_sheet
 from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.png import png_bytes
 from drapery.render.pixels import HasPixels, Pixels
@@ -22,7 +23,6 @@ from drapery.render.pixels import HasPixels, Pixels
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte
 
-ENDING = ".sheet.png"
 MAX_SIDE = 16_384  # the largest texture that common graphics hardware takes
 
 
@@ -107,18 +107,6 @@ def save_sprites(loops: Mapping[str, Sequence[HasPixels]], fps: float, path: str
     tags = {name: len(frames) for name, frames in loops.items()}
     every = [frame for frames in loops.values() for frame in frames]
     _write(target, every, max(tags.values()), fps, tags)
-
-
-def check_sheet(path: str | Path) -> Path:
-    """The path of a sprite sheet that can be written, before anything is drawn.
-
-    Raises OptionError for another ending, OutputError for a place that cannot be written.
-    """
-    target = Path(path)
-    if not target.name.endswith(ENDING):
-        raise OptionError(f"{shown(target.name)} is no sprite sheet; end the name with {ENDING}")
-    check_writable(target)
-    return target
 
 
 def _write(
