@@ -36,11 +36,21 @@ def test_it_has_the_version_of_the_package(add_on: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("subject", "named"), [("model", "white creeper:lime"), ("garment", "cape"), ("model", "-x")]
+    ("subject", "values", "last"),
+    [
+        ("model", ["white creeper:lime"], ["--", "white creeper:lime"]),
+        ("model", ["-x"], ["--", "-x"]),
+        ("garment", ["cape"], ["--", "cape"]),
+        ("player", ["dancer", "run", "scarf"], ["--skin=dancer", "--motion=run", "--wear=scarf"]),
+        ("player", ["traveller", "walk", ""], ["--skin=traveller", "--motion=walk"]),
+    ],
 )
-def test_its_command_is_one_of_the_program(add_on: Any, subject: str, named: str) -> None:
-    words = add_on.words_of(subject, named, 1.5, 24, Path("cloth.glb"))
-    assert words[-2:] == ["--", named]
+def test_its_command_is_one_of_the_program(
+    add_on: Any, subject: str, values: list[str], last: list[str]
+) -> None:
+    fields = dict(zip(add_on.FIELDS[subject], values, strict=True))
+    words = add_on.words_of(subject, fields, 1.5, 24, Path("cloth.glb"))
+    assert words[-len(last) - 2 :] == ["-o", "cloth.glb", *last]
     check_command(shlex.join(["drapery", *words]))
 
 

@@ -1,4 +1,4 @@
-"""Banners and garments of Drapery in Blender: *File*, *Import*, *Drapery cloth*.
+"""Banners, garments and players of Drapery in Blender: *File*, *Import*, *Drapery cloth*.
 
 This file is an add-on: *Edit*, *Preferences*, *Add-ons*, *Install from Disk*. It runs the command
 `drapery`, which is installed outside of Blender; where it is not on the PATH, the preferences of
@@ -7,7 +7,7 @@ the add-on name it. The loop comes as shape keys, with materials, at the frame r
 
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ import bpy
 
 bl_info = {
     "name": "Drapery cloth",
-    "description": "Minecraft banners and garments as cloth that waves",
+    "description": "Minecraft banners, garments and players with cloth that waves",
     "author": "Drapery contributors",
     "version": (0, 1, 0),
     "blender": (4, 2, 0),
@@ -23,6 +23,8 @@ bl_info = {
     "category": "Import-Export",
 }
 MISSING = "there is no command {!r}; name that of Drapery in the preferences of the add-on"
+FIELDS = {"model": ("design",), "garment": ("garment",), "player": ("skin", "motion", "garment")}
+"""What is asked for, of each subject."""
 LONGEST = 600.0
 """How long the command may take [s]; the first call after an installation compiles kernels."""
 
@@ -42,7 +44,7 @@ class DraperyPreferences(bpy.types.AddonPreferences):
 
 
 class ImportDrapery(bpy.types.Operator):
-    """Import a banner or garment whose cloth waves in a loop"""
+    """Import a banner, garment or player whose cloth waves in a loop"""
 
     bl_idname = "import_scene.drapery"
     bl_label = "Drapery cloth"
@@ -50,7 +52,11 @@ class ImportDrapery(bpy.types.Operator):
 
     subject: bpy.props.EnumProperty(
         name="Subject",
-        items=[("model", "Banner", "A banner on its pole"), ("garment", "Garment", "By its name")],
+        items=[
+            ("model", "Banner", "A banner on its pole"),
+            ("garment", "Garment", "By its name"),
+            ("player", "Player", "In a skin and a garment, moving"),
+        ],
     )
     design: bpy.props.StringProperty(
         name="Design",
@@ -60,6 +66,12 @@ class ImportDrapery(bpy.types.Operator):
     garment: bpy.props.StringProperty(
         name="Garment", description="Its name, as `drapery garment --list` has it", default="cape"
     )
+    skin: bpy.props.StringProperty(
+        name="Skin", description="traveller, dancer, or the path of a PNG file", default="traveller"
+    )
+    motion: bpy.props.StringProperty(
+        name="Motion", description="Such as walk, run, sneak, swim, or walk+wave", default="walk"
+    )
     seconds: bpy.props.FloatProperty(name="Seconds", default=2.0, min=0.1, max=60.0)
 
     def invoke(self, context: Any, _event: Any) -> set[str]:
@@ -67,17 +79,18 @@ class ImportDrapery(bpy.types.Operator):
 
     def draw(self, _context: Any) -> None:
         self.layout.prop(self, "subject")
-        self.layout.prop(self, "design" if self.subject == "model" else "garment")
+        for name in FIELDS[self.subject]:
+            self.layout.prop(self, name)
         self.layout.prop(self, "seconds")
 
     def execute(self, context: Any) -> set[str]:
         render = context.scene.render
         rate = max(1, round(render.fps / render.fps_base))
-        named = self.design if self.subject == "model" else self.garment
+        fields = {name: getattr(self, name) for name in FIELDS[self.subject]}
         try:
             with tempfile.TemporaryDirectory() as folder:
                 path = Path(folder, "cloth.glb")
-                words = words_of(self.subject, named, self.seconds, rate, path)
+                words = words_of(self.subject, fields, self.seconds, rate, path)
                 run_command(command_of(context), words)
                 show(context, path, rate, self.seconds)
         except DraperyError as error:
@@ -92,10 +105,18 @@ def command_of(context: Any) -> str:
     return addon.preferences.command if addon else "drapery"
 
 
-def words_of(subject: str, named: str, seconds: float, rate: int, path: Path) -> list[str]:
-    """The words of the command that writes a loop [s] at a rate [1/s] to a file."""
-    timed = ["--seconds", f"{seconds:g}", "--fps", str(rate)]
-    return [subject, *timed, "-o", str(path), "--", named]
+def words_of(
+    subject: str, fields: Mapping[str, str], seconds: float, rate: int, path: Path
+) -> list[str]:
+    """The words of the command that writes a loop [s] at a rate [1/s] to a file.
+
+    fields: those of the subject, by name; a player of no garment wears none.
+    """
+    words = [subject, "--seconds", f"{seconds:g}", "--fps", str(rate), "-o", str(path)]
+    if subject != "player":
+        return [*words, "--", *fields.values()]
+    flags = {"skin": "--skin", "motion": "--motion", "garment": "--wear"}
+    return [*words, *(f"{flags[name]}={value}" for name, value in fields.items() if value)]
 
 
 def run_command(command: str, words: Sequence[str]) -> None:
