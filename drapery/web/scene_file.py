@@ -5,8 +5,8 @@ its first `moment`, and
 
 aspect: width / height of the picture that the camera frames. sheets: the names of the sheets of
 texels of what shows the design, in the order of its layers ("" is the bare one), None where no
-other design can be shown. flag: a vertex of what shows it. views: cameras by the names of views;
-of no garment. daylights: the tints of the light at DAYLIGHTS. own: fabric, view and daylight of the
+other design can be shown. flag: a vertex of what shows it. views: cameras by the names of views.
+daylights: the tints of the light at DAYLIGHTS. own: fabric, view and daylight of the
 settings, where they have names. turned: the angle of rotation or facing [degrees], see
 `Settings.turned`.
 textures: those of a player, by name: the layers that show one, and which part they show of one 64
@@ -21,7 +21,7 @@ why.
 """
 
 import gzip
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import astuple, replace
 from functools import partial
 from typing import Any, Literal, get_args
@@ -35,8 +35,9 @@ from drapery.garments import Garment
 from drapery.mesh import Array, Mesh
 from drapery.option import Subject
 from drapery.packs import Packs
-from drapery.render import VIEWS, Material, TextureLayer, frame_view
+from drapery.render import VIEWS, Camera, Material, TextureLayer, frame_view
 from drapery.scenes import (
+    Dressed,
     LiveBody,
     PlayedSubject,
     Staging,
@@ -153,7 +154,7 @@ def _body_scene(
     points, aspect = staging.framed(_framed(live)), settings.size[0] / settings.size[1]
     views = {name: astuple(frame_view(name, points, aspect)) for name in VIEWS}
     flag = scene[0]["runs"][-len(body.panels or body.parts)][0]
-    tints = [_tint(body, settings, daylight) for daylight in DAYLIGHTS]
+    tints = _tints(settings, partial(Staging, light=body.light))
     given = {name: getattr(settings, name) for name in ("fabric", "view", "daylight")}
     own = {name: value for name, value in given.items() if isinstance(value, str | float | int)}
     scene[0].update(sheets=sheets, turned=settings.turned, flag=flag)
@@ -175,6 +176,8 @@ def _garment_scene(
     scene = _first_message(ViewerState((pane,), grip=grip, live=True), staging.settings)
     header, arrays = scene
     header.update(sheets=None, turned=staging.settings.turned)
+    header["views"] = {name: astuple(_seen(worn, name)) for name in VIEWS}
+    header["daylights"] = _tints(staging.settings, Staging)
     header["noPicture"] = "pictures of players and garments need Python"
     if figures:
         runs = header["runs"][last - figures : last]
@@ -221,8 +224,15 @@ def _still(body: Body, settings: Settings) -> bytes:
     return write_plan(panel, module_info(read_module()))
 
 
-def _tint(body: Body, settings: Settings, daylight: float) -> tuple[float, float, float]:
-    return Staging(settings.changed(daylight=daylight), light=body.light).light.tint
+def _seen(worn: Dressed, view: str) -> Camera:
+    """The camera of a view of a garment."""
+    return first_scene(replace(worn, settings=worn.settings.changed(view=view))).camera
+
+
+def _tints(
+    settings: Settings, stage: Callable[[Settings], Staging]
+) -> list[tuple[float, float, float]]:
+    return [stage(settings.changed(daylight=daylight)).light.tint for daylight in DAYLIGHTS]
 
 
 def _check(settings: Settings, style: Style, moves: bool) -> None:

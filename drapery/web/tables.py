@@ -22,7 +22,7 @@ from drapery.banner import (
     write_banner,
 )
 from drapery.render import VIEWS
-from drapery.settings import OPTIONS
+from drapery.settings import LOOP_OPTIONS, OPTIONS
 from drapery.style import skin_tables
 from drapery.web.page import PLACEMENTS, POSES, SHIELD, WORN
 
@@ -61,7 +61,7 @@ def tables_module() -> str:
         "worn": WORN,
         "poses": list(POSES),
         "bounds": {name: OPTIONS[name].bounds for name in ("wind", "direction", "seed", "daylight")}
-        | {"phase": OPTIONS["time"].bounds},
+        | {"phase": OPTIONS["time"].bounds, "seconds": LOOP_OPTIONS["seconds"].bounds},
         "styles": _styles(PATH.with_name("element.css")),
     }
     return _module(("drapery.banner, drapery.style", "and element.css"), {"TABLES": tables})

@@ -94,6 +94,29 @@ def test_seed_and_phase_give_each_banner_gusts_of_its_own(life: Any) -> None:
         assert np.array_equal(added(life, design="red", **own), other), own
 
 
+def test_cloth_in_a_strong_wind_stays_in_the_picture(life: Any) -> None:
+    for view in ("iso", "hero"):
+        shown = added(life, design="red", fabric="silk", wind=15, view=view)[..., 3] > 0
+        edges = (shown[0], shown[-1], shown[:, 0], shown[:, -1])
+        assert shown.any() and not any(edge.any() for edge in edges), view
+
+
+RECORD = """
+const [element, done] = arguments;
+const said = (seconds) => element.record(seconds).catch((error) => error.message);
+Promise.all([-1, 0, 3601, NaN, "x", null].map(said)).then(done);
+"""
+
+
+def test_a_film_has_a_length_that_loops_have(life: Any) -> None:
+    element = life.execute_script(f"return {ELEMENT}")
+    range_, number = "is out of range; use 0.00833 to 3600", 'is not a number; write seconds="4"'
+    assert life.execute_async_script(RECORD, element) == [
+        *(f'seconds="{given}" {range_}' for given in ("-1", "0", "3601")),
+        *(f'seconds="{given}" {number}' for given in ("NaN", "x", "null")),
+    ]
+
+
 def test_fabric_view_daylight_and_shield_are_those_of_the_package(life: Any) -> None:
     plain = added(life, design="red")
     for own in ({"fabric": "wool"}, {"view": "front"}, {"daylight": 1}, {"kind": "standing"}):

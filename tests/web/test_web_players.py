@@ -112,6 +112,16 @@ def test_a_scene_of_a_player_names_its_textures() -> None:
     assert header["textures"]["cape"]["area"] == [24, 2, 10, 20]
 
 
+def test_a_scene_of_a_player_has_the_cameras_and_the_light_of_python() -> None:
+    built_module()
+    packs, own = open_packs(()), player().settings(solver="desbrun", size=(96, 128), view="front")
+    made = (own, own.changed(view="iso", daylight=0.3))
+    first, other = (unpack(gzip.decompress(scene_bytes(player(), packs, s)))[0] for s in made)
+    assert first["cameras"]["list"][0] == first["views"]["front"]
+    assert other["cameras"]["list"][0] == first["views"]["iso"] == other["views"]["iso"]
+    assert other["tints"][0] == first["daylights"][3] != first["tints"][0] == first["daylights"][10]
+
+
 def test_a_page_of_a_player_is_one_small_file() -> None:
     built_module()
     settings = player().settings(solver="desbrun", size=(96, 128), time=0.0)

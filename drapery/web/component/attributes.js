@@ -15,7 +15,7 @@ export function numberOf(name, text) {
   if (!trimmed) return undefined;
   const [number, [least, most]] = [Number(trimmed), TABLES.bounds[name]];
   if (Number.isNaN(number)) throw new Error(`${name}="${short(trimmed)}" is not a number; write ${name}="4"`);
-  if (number < least || number > most) throw new Error(`${name}="${short(trimmed)}" is out of range; use ${least} to ${most}`);
+  if (number < least || number > most) throw new Error(`${name}="${short(trimmed)}" is out of range; use ${Number(least.toPrecision(3))} to ${most}`);
   if (name === "seed" && !Number.isInteger(number)) throw new Error(`seed="${short(trimmed)}" is not a whole number; write seed="4"`);
   return number;
 }

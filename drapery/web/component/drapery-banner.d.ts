@@ -41,7 +41,7 @@ export class DraperyBanner extends HTMLElement {
   alt: string | null;
   /** A PNG of what is seen now. */
   snapshot(): Promise<Blob>;
-  /** A film of the moving cloth, WebM or MP4 by the browser; 4 seconds unless given. */
+  /** A film of the moving cloth, WebM or MP4 by the browser; 4 seconds unless given, at most an hour. */
   record(seconds?: number): Promise<Blob>;
   /** Textures in place of those of the scene, by the name of a pattern, and by "" the one below all patterns. */
   pack: Partial<Record<"banner" | "shield", Record<string, ImageData>>> | null;
@@ -54,7 +54,8 @@ export class DraperyBanner extends HTMLElement {
  * `<drapery-player>`: a player with cloth on its back.
  *
  * Attributes: `skin` and `cape`, addresses of PNG files; `pose` ("walk", "stand", "run" or
- * "sneak"); `kind` ("cape" or "elytra"); and the attributes of wind, `paused` and `alt` as above.
+ * "sneak"); `kind` ("cape" or "elytra"); and `view`, `daylight`, the attributes of wind, `paused` and `alt`
+ * as above.
  */
 export class DraperyPlayer extends DraperyBanner {
   skin: string | null;

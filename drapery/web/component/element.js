@@ -8,11 +8,11 @@ import { TABLES } from "./tables.js";
 import { isSlim, readTexture, wholeSkin } from "./textures.js";
 
 const FOLLOW = 75; // so far the wind turns to each side with the pointer [degrees]
-const ATTRIBUTES = ["kind", "wind", "direction", "seed", "phase", "paused", "alt"];
+const ATTRIBUTES = ["kind", "view", "daylight", "wind", "direction", "seed", "phase", "paused", "alt"];
 const LESS_MOTION = globalThis.matchMedia?.("(prefers-reduced-motion: reduce)");
 
 export class DraperyBanner extends Element {
-  static observedAttributes = ["design", "fabric", "view", "daylight", ...ATTRIBUTES];
+  static observedAttributes = ["design", "fabric", ...ATTRIBUTES];
   static sources = ["kind", "fabric"]; // attributes that need another scene
 
   #starts = 0;
@@ -109,7 +109,8 @@ export class DraperyBanner extends Element {
 
   // A film of the live cloth, so long [s], as a Blob in the browser's own format: WebM, or MP4. The cloth
   // moves, whether it is in sight, paused or not.
-  async record(seconds = 4) {
+  async record(seconds = "") {
+    const length = numberOf("seconds", String(seconds)) ?? 4;
     this.#shown.draw(); // gives the canvas its size, which no film changes
     const recorder = new MediaRecorder(this.#shown.canvas.captureStream());
     const parts = [];
@@ -118,7 +119,7 @@ export class DraperyBanner extends Element {
     this.#films++;
     this.#play();
     recorder.start();
-    setTimeout(() => recorder.stop(), 1000 * seconds);
+    setTimeout(() => recorder.stop(), 1000 * length);
     await ended;
     this.#films--;
     this.#play();
@@ -170,9 +171,7 @@ export class DraperyBanner extends Element {
     this.#player = player;
     this.#canvas.hidden = !player;
     this.#slot.hidden = Boolean(player);
-    if (!player) return;
-    const { observedAttributes } = this.constructor;
-    this.#apply(...["view", "daylight"].filter((name) => observedAttributes.includes(name)), ...Object.keys(this.#wind));
+    if (player) this.#apply("view", "daylight", ...Object.keys(this.#wind));
   }
 
   // Do what attributes say. Only those that have changed are read: a wrong value is told once.

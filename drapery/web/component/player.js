@@ -2,7 +2,7 @@
 
 import { Cloth } from "../wasm/cloth.js";
 import { Drawing } from "../viewer/drawing.js";
-import { add, dot, length, readCamera, scale, subtract, unit } from "../viewer/matrices.js";
+import { add, clipMatrix, dot, length, readCamera, scale, subtract, unit } from "../viewer/matrices.js";
 import { unpack } from "../viewer/messages.js";
 import { View } from "../viewer/view.js";
 import { nameOf } from "./attributes.js";
@@ -13,6 +13,9 @@ import { retextured } from "./textures.js";
 
 const MODULE = "cloth.bin";
 const LONGEST = 1 / 15; // time that passes in one frame [s]; slower pages show slower motion
+const NEARER = 0.03; // so fast a camera comes back that has stepped back [of the picture a second]
+const FURTHEST = 2; // so much more than planned it sees
+const MARGIN = 1.02;
 const SETTLED = 3; // time before cloth is shown that does not move [s]
 
 // The plan of another fabric: a file has where the plans of all differ.
@@ -43,7 +46,7 @@ export class Player extends View {
 
   constructor(canvas, header, arrays) {
     super(canvas);
-    Object.assign(this, { header, arrays, given: {}, playing: false, owed: 0, moved: false, grab: null });
+    Object.assign(this, { header, arrays, given: {}, playing: false, owed: 0, moved: false, reach: 1, grab: null });
     this.tints = header.tints;
     this.cameras = header.cameras.list.map(readCamera);
   }
@@ -94,6 +97,7 @@ export class Player extends View {
   setView(name) {
     const { views = {}, cameras } = this.header;
     this.cameras = name === null ? cameras.list.map(readCamera) : [readCamera(views[nameOf("view", name, Object.keys(views))])];
+    this.reach = 1;
     this.orbit.reset();
   }
 
@@ -146,6 +150,21 @@ export class Player extends View {
       }
     }
     this.upload();
+    if (!this.grab) this.hold(steps * this.cloths[0].info.step);
+  }
+
+  // Step back as far as cloth blows out of the picture, and slowly come nearer again.
+  hold(seconds) {
+    const matrix = clipMatrix(this.cameras[0], this.header.aspect);
+    let reach = Math.max(1, this.reach - NEARER * seconds);
+    for (const [number, , , name] of this.header.moving) {
+      const places = this.cloths[number].array(name);
+      for (let at = 0; at < places.length; at += 3) {
+        const row = (part) => matrix[part] * places[at] + matrix[part + 4] * places[at + 1] + matrix[part + 8] * places[at + 2] + matrix[part + 12];
+        reach = Math.max(reach, (MARGIN * Math.max(Math.abs(row(0)), Math.abs(row(1)))) / row(3));
+      }
+    }
+    this.reach = Math.min(FURTHEST, reach);
   }
 
   // Give the vertices of the cloth, and of a wearer, to the drawing.
@@ -193,10 +212,10 @@ export class Player extends View {
     }
   }
 
-  // The scene's camera, further away where the canvas is narrower than what the camera frames.
+  // The scene's camera, further away where the canvas is narrower than what the camera frames, or the cloth wider.
   baseCamera(number, aspect) {
     const camera = super.baseCamera(number);
-    const wider = Math.max(1, this.header.aspect / aspect);
+    const wider = this.reach * Math.max(1, this.header.aspect / aspect);
     const fov = (Math.atan(wider * Math.tan((camera.fov * Math.PI) / 360)) * 360) / Math.PI;
     return { ...camera, fov, height: camera.height && camera.height * wider };
   }

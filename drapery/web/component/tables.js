@@ -22,6 +22,6 @@ export const TABLES = {
   "views": ["front", "back", "iso", "gui", "hero"],
   "worn": ["cape", "elytra"],
   "poses": ["walk", "stand", "run", "sneak"],
-  "bounds": {"wind": [0, 40.0], "direction": [-360, 360], "seed": [0, 4294967295], "daylight": [0, 1], "phase": [0, 3600]},
+  "bounds": {"wind": [0, 40.0], "direction": [-360, 360], "seed": [0, 4294967295], "daylight": [0, 1], "phase": [0, 3600], "seconds": [0.008333333333333333, 3600]},
   "styles": ":host { display: inline-block; inline-size: 14rem; aspect-ratio: 2 / 3; } :host([hidden]), canvas[hidden], slot[hidden] { display: none; } canvas { inline-size: 100%; block-size: 100%; display: block; touch-action: pan-y pinch-zoom; } canvas:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; } ::slotted(img) { inline-size: 100%; block-size: 100%; object-fit: contain; }",
 };
