@@ -2,13 +2,10 @@
 
 from pathlib import Path
 
-import pytest
 from conftest import GIVE
 
 from drapery import Banner, draw
 from drapery.testing.plugin import Golden
-
-pytestmark = pytest.mark.quick
 
 SIX_LAYERS = Banner.parse(
     "blue gradient_up:light_blue stripe_bottom:green rhombus:yellow flower:white"

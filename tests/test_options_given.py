@@ -18,8 +18,6 @@ from drapery.garments import Garment
 from drapery.option import Subject
 from drapery.settings import OPTIONS, settled
 
-pytestmark = pytest.mark.quick
-
 FLAG = Garment.model_validate(
     {
         "name": "flag",

@@ -10,8 +10,6 @@ from pathlib import Path
 import pytest
 from picture_requests import SUBJECTS, Request, digest, requests
 
-pytestmark = pytest.mark.quick
-
 LINES = (Path(__file__).parent / "same_pictures.txt").read_text(encoding="utf-8").splitlines()
 
 

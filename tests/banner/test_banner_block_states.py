@@ -18,6 +18,8 @@ from drapery.banner.formats.snbt import write_snbt
 from drapery.banner.formats.tree import state_id
 from drapery.errors import DesignError
 
+pytestmark = pytest.mark.quick
+
 FORMS: dict[str, Callable[[str, dict[str, str]], Any]] = {
     "to 26.2": lambda name, properties: {"Name": name, "Properties": properties},
     "id alone": lambda name, properties: name,

@@ -17,6 +17,8 @@ from drapery.banner.packs.checks import MAX_FILES
 from drapery.banner.packs.stack import MAX_PNG, open_packs
 from drapery.errors import PackError
 
+pytestmark = pytest.mark.quick
+
 SOUND = {"pack.mcmeta": mcmeta(), CREEPER: plain(1, 0, 0, 255)}
 
 

@@ -12,6 +12,8 @@ from drapery.banner.packs.png import MAX_SIDE, png_size, read_png
 from drapery.banner.packs.png_chunks import MAX_CHUNKS, wrong_checksums
 from drapery.errors import PackError
 
+pytestmark = pytest.mark.quick
+
 GREY, GREY_ALPHA, COLOUR, PALETTE, COLOUR_ALPHA = 0, 4, 2, 3, 6
 
 

@@ -39,7 +39,6 @@ from drapery.jit import entry_point
 from drapery.mesh import Array
 
 
-@pytest.mark.quick
 def test_a_banner_stays_out_of_its_pole_and_bar() -> None:
     cloth = flag((5, 9))
     wind = Wind((1.0, 0.0, -8.0), gusts=0.5)
@@ -64,7 +63,6 @@ def test_cloth_that_is_thicker_than_a_cell_is_not_torn_from_its_pins(name: str) 
     assert moving.state.positions[0, :, 1].min() < -36 * UNIT  # it hangs down
 
 
-@pytest.mark.quick
 @pytest.mark.parametrize("method", [SolverDesbrun, SolverXPBD])
 def test_a_crowd_in_contact_equals_its_cloths_alone_on_any_threads(method: Any) -> None:
     # More cloths than a register holds; gusts press some of them against the pole.

@@ -51,7 +51,6 @@ def disc_sheet():
     return cloth, np.array([0.0, 1, 0]), areas[:, 1].sum()
 
 
-@pytest.mark.quick
 @both
 def test_drag_of_the_fabric_adds_to_that_of_the_forces(name):
     plain = grid(3, 3, 1, 1, pins="none")
@@ -62,7 +61,6 @@ def test_drag_of_the_fabric_adds_to_that_of_the_forces(name):
     np.testing.assert_array_equal(fallen.positions, expected.positions)
 
 
-@pytest.mark.quick
 @both
 @pytest.mark.parametrize("make", [grid_sheet, disc_sheet])
 def test_still_air_slows_a_moving_sheet_by_pressure_times_area(name, make):
@@ -86,7 +84,6 @@ def spin_of(cloth, state):
     return (mass * np.cross(x, state.velocities[0])).sum(0)
 
 
-@pytest.mark.quick
 def test_the_exact_correction_keeps_angular_momentum_better_than_the_papers_and_than_none():
     cloth = grid(6, 7, 1, 1, pins="none", fabric=Fabric(6.0))
     start = shaken(cloth)
@@ -99,7 +96,6 @@ def test_the_exact_correction_keeps_angular_momentum_better_than_the_papers_and_
     assert drift["exact"] < drift["paper"] < drift["none"]
 
 
-@pytest.mark.quick
 @both
 def test_angular_momentum_drifts_less_in_smaller_steps(name):
     cloth = grid(6, 7, 1, 1, pins="none")
@@ -113,7 +109,6 @@ def test_angular_momentum_drifts_less_in_smaller_steps(name):
     assert drift[1] < 0.5 * drift[0]
 
 
-@pytest.mark.quick
 @both
 @pytest.mark.parametrize("pins", ["top", "corners"])
 def test_a_cloth_at_rest_does_not_move_without_wind(name, pins):

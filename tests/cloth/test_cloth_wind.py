@@ -10,8 +10,6 @@ from drapery.cloth import Gravity, SolverDesbrun, Wind, grid, kernels, rest_stat
 from drapery.cloth.wind import CROSSWIND, lower_winds
 from drapery.errors import OptionError
 
-pytestmark = pytest.mark.quick
-
 
 @njit
 def _blow(out, x, controls, gusts, time, work):

@@ -80,7 +80,6 @@ FREE = [
 ]
 
 
-@pytest.mark.quick
 @pytest.mark.parametrize(("name", "layout", "options"), FREE)
 def test_a_cloth_without_pins_falls_and_keeps_its_momentum(
     name: str, layout: str, options: dict[str, Any]
@@ -101,7 +100,6 @@ def test_a_cloth_without_pins_falls_and_keeps_its_momentum(
     np.testing.assert_allclose(way, speed * steps * dt, atol=1e-11 * mass)
 
 
-@pytest.mark.quick
 @each_solver
 def test_drag_ends_a_fall_at_g_over_its_rate(name: str) -> None:
     cloth = grid(3, 3, 0.2, 0.2, pins="none")
@@ -132,7 +130,6 @@ def rigid_pendulum(_time: float, moved: Array) -> Array:
     return np.array([moved[1], -G * np.sin(moved[0])])
 
 
-@pytest.mark.quick
 @each_solver
 def test_the_error_of_a_pendulum_has_the_order_of_the_method(name: str) -> None:
     """Its bob swings on a spring; on a rod with pbd, which has no stiffness in N/m."""
@@ -174,7 +171,6 @@ HUNG: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.mark.quick
 @each_solver
 def test_a_chain_between_two_pins_hangs_as_a_catenary(name: str) -> None:
     count, span = 15, 0.7

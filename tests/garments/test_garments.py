@@ -366,14 +366,12 @@ def test_the_check_names_what_is_wrong() -> None:
         check_garment(flat(piece=rope, pin=pins, wearer=GarmentWearer(speed=3)), 0.5)
 
 
-@pytest.mark.quick
 @pytest.mark.parametrize("name", ["tent", "skirt", "swallow-tail"])
 def test_a_garment_looks_as_it_did(name: str, golden: Golden) -> None:
     garment = find_garment(name)
     golden(draw(garment, size=(120, 120), time=0.2))
 
 
-@pytest.mark.quick
 def test_a_loop_of_a_garment_has_no_seam() -> None:
     flag = find_garment("flag")
     frames = [f.pixels.astype(float) for f in iter_frames(flag, size=(48, 48), seconds=1, fps=10)]

@@ -9,8 +9,6 @@ from drapery.render.camera import Camera
 from drapery.render.scene import Model, Scene
 from drapery.render.soft import draw_scene
 
-pytestmark = pytest.mark.quick
-
 VEIL = painted(200, 100, 50, 100, alpha="blend")
 """Where two triangles cover a sample, it is seen: its alpha is no longer 100."""
 

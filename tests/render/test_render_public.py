@@ -11,8 +11,6 @@ import drapery.render
 from drapery.errors import OptionError
 from drapery.render import Camera, draw_models, draw_scene, frame_view, make_mesh, make_model
 
-pytestmark = pytest.mark.quick
-
 SQUARE = make_mesh([(-1, 1, 0), (1, 1, 0), (-1, -1, 0), (1, -1, 0)], [(0, 2, 1), (1, 2, 3)])
 
 

@@ -11,8 +11,6 @@ from drapery.render.scene import Model, Scene
 from drapery.render.soft import draw_scene
 from drapery.render.views import VIEWS, frame_view, turntable
 
-pytestmark = pytest.mark.quick
-
 
 def on_picture(points: np.ndarray, camera: Camera, aspect: float) -> np.ndarray:
     """Places in the picture: -1..1 across, up and in depth."""

@@ -17,8 +17,6 @@ from drapery.style.block import (
 )
 from drapery.style.extrusion import boundary_edges, extrude
 
-pytestmark = pytest.mark.quick
-
 
 def sheet(columns: int, rows: int, bend: float = 0.0) -> Mesh:
     u, v = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
