@@ -46,7 +46,7 @@ shadow = contact_shadow([model], float(cloth.positions[:, 1].min()))
 picture = draw_models([model, edges, dots, shadow], view="hero", size=(200, 200))
 note("picture", picture.pixels.tobytes())
 scene = Scene((make_model(cloth, texture=texture),), camera)
-save_model(scene, "scene.glb")
+save_scenes(scene, "scene.glb")
 note("glb", open("scene.glb", "rb").read())
 wind = Wind((3, 0, 1), ripples=1)
 for cloth in (disc(12, 0.6), disc(12, 0.6, pins=[0])):
