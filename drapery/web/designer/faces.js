@@ -106,7 +106,8 @@ export class Faces {
    * @param {() => number} chance from 0 to 1 */
   random(chance = Math.random) {
     const one = (/** @type {string[]} */ list) => list[Math.floor(chance() * list.length)];
-    const dyes = [one(TABLES.dyes), one(TABLES.dyes), one(TABLES.dyes)];
+    const left = [...TABLES.dyes]; // no two alike: layers in the dye of their field are not seen
+    const dyes = [0, 1, 2].map(() => left.splice(Math.floor(chance() * left.length), 1)[0]);
     const design = { base: dyes[0], kind: "banner", layers: /** @type {Layer[]} */ ([]) };
     const most = 3 + Math.floor(chance() * 3);
     for (let tries = 0; design.layers.length < most && tries < 60; tries++) {
