@@ -1,6 +1,7 @@
 """How `pytest` spreads the whole suite over processes; `conftest.py` has these hooks.
 
 A run of single files, or of tests chosen by name, needs no other process. `-n` says another number.
+Tests that open a page in a browser run apart, with `-m page`: they take a quarter of the time.
 """
 
 import os
@@ -9,11 +10,13 @@ from pathlib import Path
 import pytest
 from compile_kernels import compile_all
 
+BROWSERS = {"chromium", "firefox"}
+"""The fixtures of browsers; a test that takes one is marked `page`."""
 PAGES = "test_studio_page"
-"""The page's tests wait for a browser and a server, with deadlines: one worker runs them all, one
-after another, while the others do the rest."""
+"""The studio's tests in a browser wait for it and for a server, with deadlines: one worker runs them
+all, one after another."""
 LONGEST = (
-    *(PAGES, "test_cloth_bounds", "test_testing_outside", "test_batch_run", "test_batch_server"),
+    *("test_cloth_bounds", "test_testing_outside", "test_batch_run", "test_batch_server"),
     *("test_cloth_bending", "test_render_soft", "test_typing"),
 )
 """Files that begin so come first, so that no worker is alone with them at the end."""
@@ -79,10 +82,13 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
     return Files(config, log)
 
 
-def pytest_report_header(config: pytest.Config) -> str | None:
-    if config.pluginmanager.hasplugin("xdist") or not is_whole(config):
+def pytest_report_header(config: pytest.Config) -> list[str] | None:
+    if not is_whole(config):
         return None
-    return 'one test after another, without pytest-xdist; `pip install -e ".[dev]"` installs it'
+    lines = ["without the tests in a browser, which `pytest -m page` runs"]
+    if not config.pluginmanager.hasplugin("xdist"):
+        lines.append('one after another, without pytest-xdist; `pip install -e ".[dev]"` installs it')
+    return lines
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -94,8 +100,16 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         compile_all()
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The longest files first."""
+@pytest.hookimpl(tryfirst=True)  # before `-m` chooses
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark tests in a browser, which a run of the whole suite leaves out; the longest files first."""
+    pages = [item for item in items if BROWSERS.intersection(getattr(item, "fixturenames", ()))]
+    for item in pages:
+        item.add_marker("page")
+    if is_whole(config) and pages:
+        config.hook.pytest_deselected(items=pages)
+        left_out = set(pages)
+        items[:] = [item for item in items if item not in left_out]
 
     def place(item: pytest.Item) -> int:
         starts = (number for number, name in enumerate(LONGEST) if item.path.name.startswith(name))
