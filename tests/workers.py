@@ -13,8 +13,8 @@ from compile_kernels import compile_all
 BROWSERS = {"chromium", "firefox"}
 """The fixtures of browsers; a test that takes one is marked `page`."""
 PAGES = "test_studio_page"
-"""The studio's tests in a browser wait for it and for a server, with deadlines: one worker runs them
-all, one after another."""
+"""The studio's tests in a browser wait for it and for a server, with deadlines: one worker runs
+them all, one after another."""
 LONGEST = (
     *("test_cloth_bounds", "test_testing_outside", "test_batch_run", "test_batch_server"),
     *("test_cloth_bending", "test_render_soft", "test_typing"),
@@ -87,7 +87,7 @@ def pytest_report_header(config: pytest.Config) -> list[str] | None:
         return None
     lines = ["without the tests in a browser, which `pytest -m page` runs"]
     if not config.pluginmanager.hasplugin("xdist"):
-        lines.append('one after another, without pytest-xdist; `pip install -e ".[dev]"` installs it')
+        lines.append('one by one, without pytest-xdist; `pip install -e ".[dev]"` installs it')
     return lines
 
 
@@ -102,7 +102,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 @pytest.hookimpl(tryfirst=True)  # before `-m` chooses
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark tests in a browser, which a run of the whole suite leaves out; the longest files first."""
+    """Mark tests in a browser, and leave them out of a whole run; the longest files first."""
     pages = [item for item in items if BROWSERS.intersection(getattr(item, "fixturenames", ()))]
     for item in pages:
         item.add_marker("page")
