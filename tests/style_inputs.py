@@ -3,20 +3,21 @@
 import numpy as np
 
 from drapery.cloth import grid
+from drapery.mesh import Array
 from drapery.render import Buffers
 from drapery.style import FLAG_MAPPING, FLAG_SIZE
-from drapery.styles import Canvas, Sheet
+from drapery.styles import Canvas, Piece
 from drapery.styles.grids import grid_shell
 
 TEXEL = 1 / 24
 """A texel of a flag [m]."""
 
 
-def rippled(rows: int = 9, columns: int = 5) -> Sheet:
+def rippled(rows: int = 9, columns: int = 5) -> tuple[Piece, Array]:
     """A flag that hangs in shallow waves."""
     rest = grid(columns, rows, *FLAG_SIZE).rest_positions
     waves = 0.1 * np.sin(4 * rest[:, 1:2] + 2 * rest[:, :1]) * [0.2, 0.1, 1]
-    return Sheet(rest + waves, grid_shell(rows, columns, FLAG_MAPPING), TEXEL, TEXEL, FLAG_SIZE)
+    return Piece(grid_shell(rows, columns, FLAG_MAPPING), TEXEL, TEXEL, FLAG_SIZE), rest + waves
 
 
 def canvas(height: int = 30, width: int = 40) -> Canvas:

@@ -16,11 +16,7 @@ from typing import TYPE_CHECKING
 from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
-    from drapery.garments.assembly import (
-        SewnCloth as SewnCloth,
-        SewnPiece as SewnPiece,
-        tailor as tailor,
-    )
+    from drapery.garments.assembly import SewnCloth as SewnCloth, tailor as tailor
     from drapery.garments.catalogue import (
         find_garment as find_garment,
         garment_names as garment_names,

@@ -1,11 +1,10 @@
 """From a garment to cloth that moves: pieces are cut, sewn and pinned."""
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
@@ -18,10 +17,8 @@ from drapery.garments.poses import BonePoses
 from drapery.garments.shapes import CutPiece, Particles, cut_pieces
 from drapery.garments.textures import texture_of
 from drapery.mesh import Array, vertex_normals
-from drapery.render.scene import Material
-from drapery.style.extrusion import Shell, make_shell
-from drapery.style.refinement import cover_curves
-from drapery.style.sheet import Sheet
+from drapery.style.extrusion import make_shell
+from drapery.style.piece import Piece
 from drapery.style.tailoring import ClothModel
 from drapery.style.visible import is_invisible
 
@@ -30,40 +27,32 @@ LAYER = 2.5
 
 
 @dataclass(frozen=True, eq=False)
-class SewnPiece:
-    """How a piece is drawn. particles: of the sewn cloth, for each vertex of the shell, shape [V].
-
-    size: width and height of the piece [m]. fabric: of its garment.
-    """
-
-    name: str
-    particles: Particles
-    shell: Shell
-    material: Material
-    size: tuple[float, float]
-    fabric: Fabric
-
-
-@dataclass(frozen=True, eq=False)
 class SewnCloth:
     """One cloth of a garment: pieces that seams join.
 
     start: where its particles begin [m], shape [N, 3].
+    pieces: how it is drawn. drawn: the particle at each vertex of each piece, each [V].
     bones: what each pinned particle is fastened to, in the order of the particles.
     solid: the bones that stop it; None for all.
-    distance: twice that of its particles from what it meets [m]. thickness, texel: [m].
+    fabric: of its garment.
+    distance: twice that of its particles from what it meets [m].
     order: of its garment among those of one wearer; higher ones lie outside lower ones.
     """
 
     cloth: Cloth
     start: Array
-    pieces: tuple[SewnPiece, ...]
+    pieces: tuple[Piece, ...]
+    drawn: tuple[Particles, ...]
+    fabric: Fabric
     bones: tuple[str, ...]
     solid: tuple[str, ...] | None
     distance: float
-    thickness: float
-    texel: float
     order: int = 0
+
+    @property
+    def thickness(self) -> float:
+        """Of all its pieces [m]."""
+        return self.pieces[0].thickness
 
     @property
     def is_on_body(self) -> bool:
@@ -89,28 +78,17 @@ class SewnCloth:
 
         return PinTable(at)
 
-    def models(
-        self, positions: Array, finer: Callable[["SewnPiece"], Shell | None] = lambda piece: None
-    ) -> list[ClothModel]:
-        """Its pieces, thick.
-
-        positions: of the particles [m], shape [N, 3].
-        finer: the shell around curves through a piece, which is drawn for its own; None where its
-            own is drawn.
-        """
+    def models(self, positions: Array) -> list[ClothModel]:
+        """Its pieces, thick. positions: of the particles [m], shape [N, 3]."""
         normals = vertex_normals(positions, self.cloth.triangles)
         found = []
-        for piece in self.pieces:
-            sheet, shell, along = positions[piece.particles], piece.shell, normals[piece.particles]
-            drawn, thin = finer(piece), None
-            if drawn is None or shell.grid is None:
-                thick = shell.cover(sheet, along, self.thickness)
-            else:
-                thick = cover_curves(drawn, shell.grid, sheet, along, self.thickness)
-            if shell.grid is not None and len(self.pieces) == 1:
-                size = piece.size
-                thin = Sheet(sheet, shell, self.thickness, self.texel, size, finer=drawn)
-            found.append(ClothModel(thick, (piece.material,), None, thin, name=piece.name))
+        for piece, drawn in zip(self.pieces, self.drawn, strict=True):
+            places, along = positions[drawn], normals[drawn]
+            mesh, materials = piece.mesh(places, along), (piece.material_at(0.0),)
+            # A step that changed one of several pieces would tear it from the others.
+            whole = piece.shell.grid is not None and len(self.pieces) == 1
+            thin = (piece, places) if whole else None
+            found.append(ClothModel(mesh, materials, None, thin, name=piece.name))
         return found
 
 
@@ -162,25 +140,19 @@ def _sewn(
     inv_mass = cloth.inv_mass.copy()
     inv_mass[sorted(bones)] = 0.0
     layer = max(cut[number].piece.layer for number in group)
-    thickness = garment.thickness * garment.texel
     return SewnCloth(
         replace(cloth, inv_mass=inv_mass),
         start,
-        tuple(
-            _piece(garment, cut[number], particles, packs)
-            for number, particles in zip(group, numbers, strict=True)
-        ),
+        tuple(_piece(garment, cut[number], packs) for number in group),
+        tuple(each[cut[number].drawn] for number, each in zip(group, numbers, strict=True)),
+        garment.fabric,
         tuple(bones[particle] for particle in sorted(bones)),
         garment.wearer.solid if garment.wearer else None,
-        thickness * (1 + LAYER * layer),
-        thickness,
-        garment.texel,
+        garment.thickness * garment.texel * (1 + LAYER * layer),
     )
 
 
-def _piece(
-    garment: Garment, cut: CutPiece, particles: NDArray[np.int64], packs: Packs
-) -> SewnPiece:
+def _piece(garment: Garment, cut: CutPiece, packs: Packs) -> Piece:
     texture = cut.piece.texture or garment.texture
     material, mapping = texture_of(texture, cut.size, packs, garment.folder)
     if texture.source in ("file", "pack") and is_invisible(
@@ -198,8 +170,14 @@ def _piece(
     shell = make_shell(cut.triangles, cut.uvs, mapping, cut.cloth.grid_shape if plain else None)
     width, height = cut.size
     size = (width * garment.texel, height * garment.texel)
-    drawn = particles[cut.drawn]
-    return SewnPiece(cut.piece.name, drawn, shell, material, size, garment.fabric)
+    return Piece(
+        shell,
+        garment.thickness * garment.texel,
+        garment.texel,
+        size,
+        lambda time: material,
+        cut.piece.name,
+    )
 
 
 def _groups(count: int, joins: Sequence[Seam], together: bool) -> list[list[int]]:

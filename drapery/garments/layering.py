@@ -98,7 +98,7 @@ def _behind(cloth: SewnCloth, low: Array, high: Array, limit: float) -> tuple[Se
     side = 1.0 if low[axis] + high[axis] > 0 else -1.0
     face = min(side * float(low[axis]), side * float(high[axis]))
     limit = min(limit, face - CLEAR * cloth.distance / 2)
-    around = BESIDE * cloth.texel
+    around = BESIDE * cloth.pieces[0].texel
     start, faces = cloth.start.copy(), cloth.cloth.triangles
     places = start[faces]
     # A face that reaches behind the plate is moved with all of its corners.

@@ -17,8 +17,8 @@ from drapery.style.block import SCALE, Placement, flag_origin, solids, wood
 from drapery.style.block_world import blocks, plateau
 from drapery.style.board import moved
 from drapery.style.layers import wood_material
+from drapery.style.piece import Piece
 from drapery.style.scenery import shadow
-from drapery.style.sheet import Sheet
 from drapery.style.tailoring import ClothModel
 
 THINNEST = 1e-4
@@ -78,8 +78,9 @@ class Flags:
     def model(self, state: State, thickness: float = 1.0) -> ClothModel:
         """The flags of a state. thickness: [texels]."""
         index = np.arange(len(state.positions), dtype=np.int32) % len(self.materials)
-        sheets = Sheet(state.positions, self.shell, thickness * SCALE, SCALE, FLAG_SIZE)
-        return ClothModel(sheets.mesh(), self.materials, index, sheets)
+        piece = Piece(self.shell, thickness * SCALE, SCALE, FLAG_SIZE)
+        thin = piece, state.positions
+        return ClothModel(piece.mesh(state.positions), self.materials, index, thin)
 
 
 def meeting(

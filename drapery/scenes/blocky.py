@@ -20,7 +20,7 @@ from drapery.scenes.parameters import (
 from drapery.scenes.picture_grid import PictureGrid, panel_size
 from drapery.style import FLAG_SIZE
 from drapery.style.block import SCALE
-from drapery.style.sheet import Sheet
+from drapery.style.piece import Piece
 from drapery.style.tailoring import ClothModel
 from drapery.styles.shape_steps import boards, voxels
 
@@ -53,12 +53,13 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     size = panel_size(clip.size, 2, 2 if p.pixel_snap else 1)
     backdrop = framing(SIDE_ON, FRAMED, size, banner_ground((BLOCK,), (2, 2), packs))
     flag = hang_flags((BLOCK,), p.grid, (p.design,), packs)
+    piece = Piece(flag.shell, SCALE, SCALE, FLAG_SIZE)
     labels = ("smooth", counted(p.steps, "step"), "pixel-snap", "both")
     wind = looped_wind(p.wind, p.seed, (0.25, 0.0, 0.97))
     for state in flag.motion(clip, wind, settle=2 * LOOP):
-        smooth = Sheet(state.positions[0], flag.shell, SCALE, SCALE, FLAG_SIZE)
-        sheets = smooth, boards(smooth, steps=p.steps)
-        models = [ClothModel(sheet.mesh(), flag.materials, sheet=sheet) for sheet in sheets]
+        smooth = piece, state.positions[0]
+        shapes = smooth, boards(*smooth, steps=p.steps)
+        models = [ClothModel(each.mesh(at), flag.materials, thin=(each, at)) for each, at in shapes]
         if p.pixel_snap:
-            models += [ClothModel(voxels(sheet), flag.materials) for sheet in sheets]
+            models += [ClothModel(voxels(*shape), flag.materials) for shape in shapes]
         yield PictureGrid(tuple(backdrop.scene([model]) for model in models), labels[: len(models)])

@@ -40,8 +40,8 @@ from drapery.settings import Settings
 from drapery.style.body import Body, Panel, Solid
 from drapery.style.extrusion import Shell, thicken
 from drapery.style.finish import finished
+from drapery.style.piece import Piece
 from drapery.style.refinement import cells_per_cell, finer_shape
-from drapery.style.sheet import Sheet
 from drapery.style.uv_mapping import UVMapping
 from drapery.styles.grids import finer_shell, grid_shell
 
@@ -225,7 +225,7 @@ class StagedBody:
         if not style.has("motion"):
             return [*motions]
         panels = zip(self.body.panels, motions, strict=True)
-        return [style.move(self._sheet(panel, motion)).positions for panel, motion in panels]
+        return [style.move(self._piece(panel), motion) for panel, motion in panels]
 
     def record(
         self, at: Schedule, on_moment: Callable[[int, int], object] | None = None
@@ -291,18 +291,18 @@ class StagedBody:
         sways = [max(1, round(_phase(panel, at.period))) for panel in panels]
         return [[n * frame / count for n in sways] for frame in range(count)]
 
-    def _sheet(self, panel: Panel, positions: Array) -> Sheet:
+    def _piece(self, panel: Panel) -> Piece:
         columns, rows = self.staging.settings.grid
         thickness = self.staging.settings.thickness * panel.texel
         shell = grid_shell(rows, columns, panel.uv_mapping)
         finer = finer_shell(shell, self.times)
-        return Sheet(positions, shell, thickness, panel.texel, panel.size, finer=finer)
+        return Piece(shell, thickness, panel.texel, panel.size, finer=finer)
 
     def _thick(self, panel: Panel, sheet: Array) -> Mesh:
-        thin = self._sheet(panel, sheet + panel.origin)
+        piece, positions = self._piece(panel), sheet + panel.origin
         if self.times > 1 or self.staging.style.has("shape"):
-            return self.staging.turned(self.staging.style.mesh(thin))
-        return self.staging.turned(self._cover(thin.shell, thin.positions, thin.thickness))
+            return self.staging.turned(self.staging.style.mesh(piece, positions))
+        return self.staging.turned(self._cover(piece.shell, positions, piece.thickness))
 
 
 class LiveBody(StagedBody):

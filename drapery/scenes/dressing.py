@@ -6,7 +6,7 @@ that walks at the speed of its walk, so its cloth moves as on one that walks thr
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import product
 
 import numpy as np
@@ -16,13 +16,14 @@ from drapery.cloth import (
     Box,
     Collider,
     Collisions,
+    Fabric,
     Force,
     Plane,
     State,
     Wind,
 )
 from drapery.cloth.solvers.registry import solver
-from drapery.garments.assembly import SewnCloth, SewnPiece, tailor
+from drapery.garments.assembly import SewnCloth, tailor
 from drapery.garments.layering import put_behind, put_outside, sampled
 from drapery.garments.meshes import StiffMesh, read_stiff_mesh
 from drapery.garments.model import Garment, GarmentPole
@@ -41,8 +42,8 @@ from drapery.style.block import turn_matrix
 from drapery.style.block_world import Cell, blocks
 from drapery.style.board import moved
 from drapery.style.body import Part
-from drapery.style.extrusion import Shell
 from drapery.style.ground import ground_of
+from drapery.style.piece import Piece
 from drapery.style.refinement import cells_per_cell
 from drapery.style.rig import moved_rig
 from drapery.style.scenery import pole, pole_frame
@@ -243,12 +244,12 @@ class Dressed:
         self, staging: Staging, sheets: Sequence[Array], times: Sequence[float]
     ) -> Iterator[list[Model]]:
         """All models of each moment in the garment's own frame, the cloth in the style."""
-        finer = partial(self._finer, staging)
+        fine = [self._finer(staging, sewn) for sewn in self.cloths]
         cloth: list[list[Model]] = [
             [
                 model
-                for sewn, sheet in zip(self.cloths, sheets, strict=True)
-                for model in sewn.models(sheet[frame], finer)
+                for sewn, sheet in zip(fine, sheets, strict=True)
+                for model in sewn.models(sheet[frame])
             ]
             for frame in range(len(times))
         ]
@@ -256,14 +257,19 @@ class Dressed:
             figure = self.wearer.models(time, self._bones) if self.wearer else ()
             yield [*self.fixed, *figure, *(tailored(each, staging.style) for each in worn)]
 
-    def _finer(self, staging: Staging, piece: SewnPiece) -> Shell | None:
-        """The shell of curves that a large picture shows of a piece; none before shape steps."""
-        if staging.style.has("shape") or piece.shell.grid is None:
-            return None
-        who, height = self.garment.wearer, piece.size[1]
-        share = min(1.0, height / PLAYER_HEIGHT) if who and who.shown == "full" else 1.0
-        times = cells_per_cell(self.settings.drawn_size, piece.shell.grid, share)
-        return finer_shell(piece.shell, times)
+    def _finer(self, staging: Staging, sewn: SewnCloth) -> SewnCloth:
+        """A cloth whose pieces are curves where a large picture shows them; not before shape
+        steps."""
+        if staging.style.has("shape"):
+            return sewn
+        pieces, who = [], self.garment.wearer
+        for piece in sewn.pieces:
+            share = min(1.0, piece.size[1] / PLAYER_HEIGHT) if who and who.shown == "full" else 1.0
+            if piece.shell.grid is not None:
+                times = cells_per_cell(self.settings.drawn_size, piece.shell.grid, share)
+                piece = replace(piece, finer=finer_shell(piece.shell, times))
+            pieces.append(piece)
+        return replace(sewn, pieces=tuple(pieces))
 
     def figures(self) -> list[RiggedModel]:
         """The models of the wearer at the start, which come directly before those of the cloths."""
@@ -327,14 +333,12 @@ def _begins_in(sewn: SewnCloth, box: Box) -> bool:
 
 def _finished(sewn: SewnCloth) -> SewnCloth:
     """A cloth whose pieces look like their fabric."""
-    pieces = (
-        replace(
-            piece,
-            material=with_finish(piece.material, piece.fabric, piece.shell.uv_mapping, piece.size),
-        )
-        for piece in sewn.pieces
-    )
-    return replace(sewn, pieces=tuple(pieces))
+    return replace(sewn, pieces=tuple(_finished_piece(each, sewn.fabric) for each in sewn.pieces))
+
+
+def _finished_piece(piece: Piece, fabric: Fabric) -> Piece:
+    material = with_finish(piece.material_at(0.0), fabric, piece.shell.uv_mapping, piece.size)
+    return replace(piece, material_at=lambda time: material)
 
 
 def _shifted(model: Model, by: Array) -> Model:

@@ -60,7 +60,7 @@ def repeating_garment(garment: Garment, packs: Packs, settings: Settings) -> Dre
             " use another garment"
         )
     for sewn in worn.cloths:
-        if len(sewn.pieces) > 1 or len(sewn.pieces[0].particles) != len(sewn.start):
+        if len(sewn.pieces) > 1 or sewn.pieces[0].shell.count != len(sewn.start):
             raise OptionError(
                 f"garment {garment.name} has sewn pieces, which cannot be played without Python;"
                 " use a cape, elytra or another garment without seams"
@@ -87,7 +87,7 @@ def first_scene(worn: Dressed) -> Scene:
 def texture_areas(worn: Dressed) -> tuple[list[int], list[int]]:
     """Which part of a skin the wearer shows, and which part of a cape's texture the first cloth
     does, for textures 64 texels wide: left, top, width, height [texels]."""
-    height, width = worn.cloths[0].pieces[0].material.layers[0].texels.shape[:2]
+    height, width = worn.cloths[0].pieces[0].material_at(0.0).layers[0].texels.shape[:2]
     # Wings of wool show all of it.
     left, top, *extent = map(int, WING["front"])
     is_sheet = width % SIDE == 0

@@ -15,7 +15,7 @@ from drapery.render.frame import Frame
 from drapery.render.light import STUDIO_LIGHT, UNLIT
 from drapery.render.scene import Model, Scene
 from drapery.scenes.picture_grid import ClipPicture, PictureGrid
-from drapery.style.sheet import Sheet
+from drapery.style.piece import Piece
 from drapery.style.tailoring import ClothModel
 from drapery.styles.style import Style
 
@@ -35,7 +35,7 @@ def styled_pictures(
         return iter(())
     _warn_of_idle_steps(first, style)
     pictures = chain((first,), pictures)
-    if style.has("motion") and any(map(_sheets, _scenes(first))):
+    if style.has("motion") and any(map(_has_pieces, _scenes(first))):
         pictures = _moved([*pictures], style)
     shaped = (_each(picture, partial(_dressed, style=style)) for picture in pictures)
     if not style.has("picture"):
@@ -58,7 +58,7 @@ def _warn_of_idle_steps(first: ClipPicture, style: Style) -> None:
             stacklevel=3,
         )
     shapes = style.has("shape") or style.has("motion")
-    if scenes and shapes and not any(map(_sheets, scenes)):
+    if scenes and shapes and not any(map(_has_pieces, scenes)):
         warnings.warn(
             f"style {style.name}: its motion and shape steps change nothing, since the scene has no"
             " rectangle of cloth",
@@ -72,10 +72,9 @@ def _single(picture: ClipPicture) -> Scene | Frame:
     return picture
 
 
-def _sheets(scene: Scene) -> list[Sheet]:
-    """The rectangles of cloth in a scene."""
-    models = (model for model in scene.models if isinstance(model, ClothModel))
-    return [model.sheet for model in models if model.sheet is not None]
+def _has_pieces(scene: Scene) -> bool:
+    """Whether a scene has a rectangle of cloth."""
+    return any(isinstance(model, ClothModel) and model.thin for model in scene.models)
 
 
 def _each(picture: ClipPicture, change: Callable[[Scene], Scene | Frame]) -> ClipPicture:
@@ -130,20 +129,20 @@ def tailored(model: Model, style: Style) -> Model:
     if not isinstance(model, ClothModel):
         return model
     materials = tuple(style.material(material) for material in model.materials)
-    mesh, sheet = model.mesh, model.sheet
-    if sheet is not None and style.has("shape"):
-        mesh = _shaped(sheet, style)
+    mesh = model.mesh
+    if model.thin is not None and style.has("shape"):
+        mesh = _shaped(*model.thin, style)
     return replace(model, mesh=mesh, materials=materials)
 
 
-def _shaped(sheet: Sheet, style: Style) -> Mesh:
-    """The mesh of a sheet, or of a batch of sheets, by the style's shape steps."""
-    batch = sheet.positions.reshape(-1, *sheet.positions.shape[-2:])
-    meshes = [style.mesh(replace(sheet, positions=positions)) for positions in batch]
-    if sheet.positions.ndim == 2:
+def _shaped(piece: Piece, positions: Array, style: Style) -> Mesh:
+    """The mesh of a piece, or of a batch of pieces, by the style's shape steps."""
+    batch = positions.reshape(-1, *positions.shape[-2:])
+    meshes = [style.mesh(piece, each) for each in batch]
+    if positions.ndim == 2:
         return meshes[0]
-    positions = np.stack([mesh.positions for mesh in meshes])
-    return replace(meshes[0], positions=positions, normals=np.stack([m.normals for m in meshes]))
+    places = np.stack([mesh.positions for mesh in meshes])
+    return replace(meshes[0], positions=places, normals=np.stack([m.normals for m in meshes]))
 
 
 def _moved(pictures: list[ClipPicture], style: Style) -> Iterator[ClipPicture]:
@@ -169,26 +168,20 @@ def moved_by_style(frames: Sequence[Sequence[Model]], style: Style) -> list[list
     if not style.has("motion"):
         return models
     for place in range(min(map(len, models))):
-        cloth = [frame[place] for frame in models]
-        sheets = [model.sheet for model in cloth if isinstance(model, ClothModel) and model.sheet]
-        if len(sheets) == len(cloth):
-            motion = _moved_positions(sheets, style)
+        cloth = [model for frame in models if isinstance(model := frame[place], ClothModel)]
+        thin = [model.thin for model in cloth if model.thin is not None]
+        if len(thin) == len(models):
+            piece = thin[0][0]
+            motion = _moved_positions(piece, np.stack([positions for _, positions in thin]), style)
             for frame, model, positions in zip(models, cloth, motion, strict=True):
-                frame[place] = _with_positions(model, positions)
+                mesh = piece.mesh(positions)
+                frame[place] = replace(model, mesh=mesh, thin=(piece, positions))
     return models
 
 
-def _moved_positions(sheets: Sequence[Sheet], style: Style) -> Array:
-    """The positions of a sheet or batch at all moments after the motion steps."""
-    motion = np.stack([sheet.positions for sheet in sheets])
-    batch = motion.reshape(len(sheets), -1, *motion.shape[-2:])
+def _moved_positions(piece: Piece, motion: Array, style: Style) -> Array:
+    """The positions of a piece or batch at all moments after the motion steps."""
+    batch = motion.reshape(len(motion), -1, *motion.shape[-2:])
     members = (batch[:, member] for member in range(batch.shape[1]))
-    moved = [style.move(replace(sheets[0], positions=member)).positions for member in members]
+    moved = [style.move(piece, member) for member in members]
     return np.stack(moved, axis=1).reshape(motion.shape)
-
-
-def _with_positions(model: Model, positions: Array) -> Model:
-    if not isinstance(model, ClothModel) or model.sheet is None:
-        return model
-    sheet = replace(model.sheet, positions=positions)
-    return replace(model, mesh=sheet.mesh(), sheet=sheet)

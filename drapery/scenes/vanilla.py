@@ -70,7 +70,7 @@ def _capes(p: VanillaParameters, packs: Packs, clip: Clip) -> Iterator[list[Scen
     backdrop = Backdrop(camera(size), size)
     for frame, state in enumerate(cape_states(own, sewn, gait, clip)):
         board = moved(stiff_cape(cape_lean(p.speed, frame / clip.fps)), gait.raised(state.time))
-        stiff = ClothModel(board, (sewn.pieces[0].material,))
+        stiff = ClothModel(board, (sewn.pieces[0].material_at(0.0),))
         figure = walker(gait, state.time, skin, causeway)
         capes = (stiff, *sewn.models(state.positions[0]))
         yield [backdrop.scene((*figure, each)) for each in capes]

@@ -56,7 +56,7 @@ def in_material(
     shell = piece.shell
     if uv_mapping is not None:
         shell = make_shell(shell.sheet, shell.sheet_uvs, uv_mapping, shell.grid)
-    return replace(sewn, pieces=(replace(piece, shell=shell, material=material),))
+    return replace(sewn, pieces=(replace(piece, shell=shell, material_at=lambda time: material),))
 
 
 def _with_side(piece: GridPiece, side: float) -> GridPiece:

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     )
     from drapery.style.body import (
         Body as Body,
-        MaterialAt as MaterialAt,
         Panel as Panel,
         Part as Part,
     )
@@ -42,6 +41,7 @@ if TYPE_CHECKING:
     )
     from drapery.style.kinds import Kind as Kind, body_of as body_of, check_kind as check_kind
     from drapery.style.layers import flag_material as flag_material
+    from drapery.style.piece import MaterialAt as MaterialAt
     from drapery.style.skins import skin_tables as skin_tables
     from drapery.style.uv_mapping import (
         BoxMapping as BoxMapping,

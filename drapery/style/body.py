@@ -8,11 +8,8 @@ from typing import Literal
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import GAME_LIGHT, Light
-from drapery.render.scene import Material
+from drapery.style.piece import MaterialAt
 from drapery.style.uv_mapping import UVMapping
-
-MaterialAt = Callable[[float], Material]
-"""The material at a time [s]; the same object for as long as it looks the same."""
 
 
 @dataclass(frozen=True, eq=False)

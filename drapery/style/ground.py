@@ -11,7 +11,8 @@ from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material
 from drapery.settings import Placement
 from drapery.style.block_world import FACES, Cell, blocks
-from drapery.style.body import MaterialAt, Part
+from drapery.style.body import Part
+from drapery.style.piece import MaterialAt
 
 PIECES: dict[Placement, int] = {"standing": 8, "wall": 4}
 """Squares along a side of a face near the body: its light is measured at their corners."""

@@ -12,8 +12,8 @@ from drapery.banner.packs import Packs
 from drapery.banner.sprites import WHITE, Tinted, composite, flag_layers, shield_layers
 from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
-from drapery.style.body import MaterialAt
 from drapery.style.maps import Maps, design_maps
+from drapery.style.piece import MaterialAt
 
 LayerMode = Literal["stacked", "flat"]
 

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
@@ -12,8 +11,7 @@ from drapery.banner.sprites import tint
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.scene import Material, Model, Texels, TextureLayer
-from drapery.style.extrusion import Shell, thicken
-from drapery.style.sheet import Sheet
+from drapery.style.piece import Piece
 
 TEXEL = 1 / 16
 """The edge of a texel of a block [m]."""
@@ -21,27 +19,13 @@ TEXEL = 1 / 16
 
 @dataclass(frozen=True, eq=False)
 class ClothModel(Model):
-    """A model that is cloth, so that styles change it. sheet: None if its shape must stay."""
+    """A model that is cloth, so that styles change it.
 
-    sheet: Sheet | None = None
-
-
-def garment(
-    shell: Shell,
-    sheet: Array,
-    thickness: float,
-    *materials: Material,
-    index: NDArray[np.int32] | None = None,
-    size: tuple[float, float] | None = None,
-    texel: float = TEXEL,
-) -> ClothModel:
-    """A cloth, or a batch of them, made thick; sheet, thickness: see `thicken`.
-
-    materials, index: as in `Model`. size: width and height of a rectangle at rest [m], whose shell
-    has a grid; None for other shapes. texel: the edge of a texel [m].
+    thin: the piece that it is and the positions of its vertices [m], shape [N, 3], or [B, N, 3] of
+        a batch; None if its shape must stay.
     """
-    thin = None if size is None else Sheet(sheet, shell, thickness, texel, size)
-    return ClothModel(thicken(shell, sheet, thickness), materials, index, thin)
+
+    thin: tuple[Piece, Array] | None = None
 
 
 def dyed(texels: Texels, dye: str) -> Material:

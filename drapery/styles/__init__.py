@@ -11,8 +11,8 @@ draw(banner, style=Style.load("my.toml") | find_style("tattered")).save("mine.pn
 
 A `Style` holds `StyleStep`s of four kinds. Each is a plain function with keyword parameters:
 
-- `motion` steps change a `Sheet` of all moments of a loop;
-- `shape` steps change the `Sheet` of one moment, or make a `Mesh` of it;
+- `motion` steps change the positions of a `Piece` of cloth at all moments of a loop;
+- `shape` steps change a `Piece` and its positions at one moment, or make a `Mesh` of them;
 - `material` steps change the `Material` of the cloth;
 - `picture` steps change a `Canvas`, the picture with its `Buffers` (depth, normal, model), or all
   canvases of a loop.
@@ -27,7 +27,7 @@ from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
     from drapery.settings import StyleLike as StyleLike
-    from drapery.style.sheet import Sheet as Sheet
+    from drapery.style.piece import Piece as Piece
     from drapery.styles.canvas import Canvas as Canvas
     from drapery.styles.catalogue import (
         combined_style as combined_style,

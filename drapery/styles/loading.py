@@ -68,7 +68,7 @@ def _steps(parsed: StyleFile, path: str | Path, text: str) -> Iterator[StyleStep
             if name == "palette" and "file" in given:
                 where = locate(path, text, (kind, number, "file"))
                 given = _with_palette(given, Path(path).parent, where)
-            for field, fault in parameter_faults(known[name], given).items():
+            for field, fault in parameter_faults(kind, known[name], given).items():
                 raise OptionError(f"{locate(path, text, (kind, number, field))}: {name}: {fault}")
             yield StyleStep(kind, known[name], given)
 

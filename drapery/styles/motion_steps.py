@@ -1,6 +1,6 @@
 """Steps that change how cloth moves: the positions of all moments of a picture or loop."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
@@ -8,7 +8,7 @@ from pydantic import Field
 
 from drapery.elementary import arctan2, cos, sin
 from drapery.mesh import Array
-from drapery.style.sheet import Sheet
+from drapery.style.piece import Piece
 
 LOOSE = 0.7
 """A snapped angle stays until the angle of the cloth is so many steps away, so it does not flicker
@@ -22,20 +22,21 @@ SEAM = 3.0
 
 
 def hold(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     every: Annotated[int, Field(ge=1, le=60, description="frames that show one pose")] = 2,
-) -> Sheet:
+) -> Array:
     """Show each pose for several frames, as hand-drawn animation does. A still does not change."""
-    at = np.arange(len(sheet.positions)) // every * every
-    return replace(sheet, positions=sheet.positions[at])
+    return positions[np.arange(len(positions)) // every * every]
 
 
 def snap_angles(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     degrees: Annotated[float, Field(ge=1, le=90, description="between two angles")] = 15.0,
-) -> Sheet:
+) -> Array:
     """Move in whole angles, as a jointed puppet in a stop-motion film does.
 
     The cloth is a chain of rows from its held edge on. Each row turns about that edge until its
@@ -43,7 +44,7 @@ def snap_angles(
     `degrees`, and stays there until the simulated angle is 0.7 steps away. Lengths along the chain
     and the folds across it stay; the shape step `boards` makes the rows straight.
     """
-    chain = _chain(sheet)
+    chain = _chain(piece, positions)
     pieces = np.diff(chain.rows, axis=1)
     ahead = np.cross(chain.hinge, -chain.rest)
     rest, middle = np.cross(chain.hinge, ahead), pieces.mean(axis=2)
@@ -51,21 +52,22 @@ def snap_angles(
     turns = _kept_angles(angles, np.radians(degrees)) - angles
     turned = _turned(pieces, -chain.hinge[:, None, None], turns[..., None])
     below = chain.rows[:, :1] + np.cumsum(turned, axis=1)
-    return chain.sheet(np.concatenate([chain.rows[:, :1], below], axis=1))
+    return chain.positions(np.concatenate([chain.rows[:, :1], below], axis=1))
 
 
 def squash(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     strength: Annotated[float, Field(ge=0, le=1, description="stretch at the fastest")] = 0.3,
-) -> Sheet:
+) -> Array:
     """Squash and stretch: the faster cloth moves, the longer it is that way, and the narrower.
 
     At the fastest moment of a loop it is 1 + strength times as long along its mean velocity, which
     counts from its held edge; across, it is narrower by the square root of that, so that the
     volume stays (Johnston and Thomas, "The illusion of life", 1981). The held edge stays.
     """
-    chain = _chain(sheet)
+    chain = _chain(piece, positions)
     edge = chain.rows[:, :1]
     velocity = _velocity((chain.rows - edge.mean(axis=2, keepdims=True)).mean(axis=(1, 2)))
     squares = np.sum(velocity * velocity, axis=-1)[:, None, None]
@@ -77,34 +79,33 @@ def squash(
     share = np.linspace(0, 1, chain.rows.shape[1])[:, None, None]
     offsets = chain.rows - edge + share * (edge - edge.mean(axis=2, keepdims=True))
     moved = sum(offsets[..., k, None] * change[:, None, None, :, k] for k in range(3))
-    return chain.sheet(chain.rows + moved)
+    return chain.positions(chain.rows + moved)
 
 
 @dataclass(frozen=True, eq=False)
 class ClothChain:
-    """The motion of a sheet as rows that follow each other from its held edge on.
+    """The motion of a piece as rows that follow each other from its held edge on.
 
-    whole: the sheet. rows: shape [F, R, C, 3]; the first row is held. hinge: unit vector along that
+    rows: [m], shape [F, R, C, 3]; the first row is held. hinge: unit vector along that
     row at each moment, shape [F, 3]. rest: unit vector from which angles count: down, or where the
     chain goes to on average if the held row stands upright. sideways: whether the left edge is
     held, and not the top.
     """
 
-    whole: Sheet
     rows: Array
     hinge: Array
     rest: Array
     sideways: bool
 
-    def sheet(self, rows: Array) -> Sheet:
-        """The sheet with other positions."""
+    def positions(self, rows: Array) -> Array:
+        """The positions of other rows [m], shape [F, N, 3]."""
         grid = rows.swapaxes(1, 2) if self.sideways else rows
-        return replace(self.whole, positions=grid.reshape(self.whole.positions.shape))
+        return grid.reshape(len(grid), -1, 3)
 
 
-def _chain(sheet: Sheet) -> ClothChain:
-    """The sheet from its held edge on: the left one if it moves less than the top one."""
-    grid = sheet.grid
+def _chain(piece: Piece, positions: Array) -> ClothChain:
+    """The piece from its held edge on: the left one if it moves less than the top one."""
+    grid = piece.rows(positions)
     top, left = (edge - edge[:1] for edge in (grid[:, 0], grid[:, :, 0]))
     sideways = float(np.abs(left).mean()) < float(np.abs(top).mean())
     rows = grid.swapaxes(1, 2) if sideways else grid
@@ -113,7 +114,7 @@ def _chain(sheet: Sheet) -> ClothChain:
         rest = np.array([0.0, -1.0, 0.0])
     else:
         rest = _unit((rows[:, -1] - rows[:, 0]).mean(axis=(0, 1)) * [1.0, 0.0, 1.0])
-    return ClothChain(sheet, rows, hinge, rest, sideways)
+    return ClothChain(rows, hinge, rest, sideways)
 
 
 def _unit(vectors: Array) -> Array:

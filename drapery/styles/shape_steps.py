@@ -11,11 +11,14 @@ from drapery.elementary import arctan2, cos, sin
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.vectors import dots
+from drapery.style.piece import Piece
 from drapery.style.refinement import MAX_SIDE, on_curves
-from drapery.style.sheet import Sheet
 from drapery.style.uv_mapping import UVMapping
 from drapery.styles.grids import grid_shell
 from drapery.styles.step import costs
+
+Shape = tuple[Piece, Array]
+"""A piece of cloth, and the positions of its vertices [m], shape [N, 3]."""
 
 THINNEST = 0.02
 """Level texels are at least this thick [texels]."""
@@ -30,54 +33,58 @@ BLOCK_FACES = np.array(
 
 
 def thickness(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     texels: Annotated[float, Field(ge=0, le=8, description="thickness of the cloth")] = 0.5,
-) -> Sheet:
+) -> Shape:
     """Make the cloth thicker or thinner; a texel is 1/24 m on a banner."""
-    return replace(sheet, thickness=texels * sheet.texel)
+    return replace(piece, thickness=texels * piece.texel), positions
 
 
 @costs(4)
 def smooth(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     times: Annotated[int, Field(ge=1, le=8, description="new cells along each cell")] = 4,
-) -> Sheet:
+) -> Shape:
     """Round the folds: more particles on curves through those that were simulated.
 
     The curves are Catmull and Rom's ("A class of local interpolating splines", 1974).
     """
-    rows, columns = (min((side - 1) * times + 1, max(MAX_SIDE, side)) for side in sheet.grid_shape)
-    return _resampled(sheet, rows, columns, curved=True)
+    rows, columns = (min((side - 1) * times + 1, max(MAX_SIDE, side)) for side in piece.grid_shape)
+    return _resampled(piece, positions, rows, columns, curved=True)
 
 
 def coarse(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     columns: Annotated[int, Field(ge=2, le=65, description="particles across")] = 3,
     rows: Annotated[int, Field(ge=2, le=65, description="particles down")] = 5,
-) -> Sheet:
+) -> Shape:
     """Show the cloth with fewer bends: straight pieces between a few of its points."""
-    return _resampled(sheet, rows, columns, curved=False)
+    return _resampled(piece, positions, rows, columns, curved=False)
 
 
-def facets(sheet: Sheet) -> Sheet:
+def facets(piece: Piece, positions: Array) -> Shape:
     """Light each triangle by itself, so that all edges are sharp."""
-    return replace(sheet, facets=True)
+    return replace(piece, facets=True), positions
 
 
 def boards(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     steps: Annotated[int, Field(ge=1, le=90, description="bend angles in a right angle")] = 4,
-) -> Sheet:
+) -> Shape:
     """A chain of stiff boards below the top row, at multiples of 90 / steps degrees.
 
     Each board keeps the distance of its two rows and starts at the end of the one above; the top
     row stays where it is.
     """
-    rows = sheet.grid
+    rows = piece.rows(positions)
     middles = rows.mean(axis=-2)
     along = np.diff(middles, axis=-2)
     across = rows[..., :1, -1, :] - rows[..., :1, 0, :]
@@ -92,11 +99,11 @@ def boards(
     pieces = cos(lean)[..., None] * turned + sin(lean)[..., None] * side
     below = np.cumsum(lengths[..., None] * pieces, axis=-2)
     offsets = np.concatenate([np.zeros_like(below[..., :1, :]), below], axis=-2)
-    result = (rows[..., :1, :, :] + offsets[..., None, :]).reshape(sheet.positions.shape)
-    return replace(sheet, positions=result)
+    result = (rows[..., :1, :, :] + offsets[..., None, :]).reshape(positions.shape)
+    return piece, result
 
 
-def voxels(sheet: Sheet) -> Mesh:
+def voxels(piece: Piece, positions: Array) -> Mesh:
     """Upright cubes, one for each texel, on a lattice of texels; the rows of the sheet run along x.
 
     A row of texels moves sideways and down as one, so that it has no holes; each texel moves
@@ -104,23 +111,24 @@ def voxels(sheet: Sheet) -> Mesh:
     it. A cube shows its texel of the back on its back, and its texel of the front on its other
     sides.
     """
-    texel, corner = sheet.texel, sheet.positions[0]
-    across, down = _texels(sheet)
+    texel, corner = piece.texel, positions[0]
+    across, down = _texels(piece)
     first = corner + np.array([texel / 2, -texel / 2, 0.0])
     column, row = np.meshgrid(np.arange(across), np.arange(down))
     lattice = first + np.stack([column, -row, 0 * row], axis=-1) * texel
-    shift = _middles(sheet.grid, (across, down)) - lattice
+    shift = _middles(piece.rows(positions), (across, down)) - lattice
     shift[..., :2] = shift[..., :2].mean(axis=1, keepdims=True)
     cells = np.round(shift / texel)
     deep = np.minimum(cells[..., 2], _least_beside(cells[..., 2], cells[:, 0, 0]) + 1)
     front = (lattice + cells * texel)[:, :, None] + texel / 2 * CUBE_FRONT
     back = front - np.array([0.0, 0.0, texel]) * (cells[..., 2] - deep + 1)[..., None, None]
-    uvs = _texel_uvs((across, down), sheet.shell.uv_mapping)
+    uvs = _texel_uvs((across, down), piece.shell.uv_mapping)
     return _blocks(front.reshape(-1, 4, 3), back.reshape(-1, 4, 3), uvs)
 
 
 def level_texels(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     step: Annotated[float, Field(ge=0, le=4, description="between levels [texels]; 0: any")] = 0.5,
 ) -> Mesh:
@@ -130,16 +138,16 @@ def level_texels(
     which are `step` texels apart. Each reaches back to the farthest of its four neighbours, so
     that there are walls between levels and no gaps.
     """
-    across, down = _texels(sheet)
-    rows = sheet.grid
+    across, down = _texels(piece)
+    rows = piece.rows(positions)
     axes = _mean_axes(rows)
     low, high = (np.arange(count + 1) / count for count in (down, across))
     corners = _at(rows, low, high) - rows[0, 0]
     flat = dots(corners[:, :, None], axes[:2])
     height = dots(_middles(rows, (across, down)) - rows[0, 0], axes[2])
     if step:
-        height = np.round(height / (step * sheet.texel)) * step * sheet.texel
-    thick = max(sheet.thickness, THINNEST * sheet.texel)
+        height = np.round(height / (step * piece.texel)) * step * piece.texel
+    thick = max(piece.thickness, THINNEST * piece.texel)
     framed = np.pad(height, 1, mode="edge")
     lowest = np.minimum.reduce(
         [framed[1:-1, :-2], framed[1:-1, 2:], framed[:-2, 1:-1], framed[2:, 1:-1], height]
@@ -153,64 +161,68 @@ def level_texels(
     ]
     turned = [dots(block[..., None, :], axes.T) + rows[0, 0] for block in blocks]
     front, back = (block.reshape(-1, 4, 3) for block in turned)
-    return _blocks(front, back, _texel_uvs((across, down), sheet.shell.uv_mapping))
+    return _blocks(front, back, _texel_uvs((across, down), piece.shell.uv_mapping))
 
 
 @costs(4)
 def swallow_tail(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     depth: Annotated[float, Field(ge=0, le=0.9, description="share of the height cut out")] = 0.3,
-) -> Sheet:
+) -> Shape:
     """Cut a wedge of whole texels out of the lower edge."""
-    across, down = _texels(sheet)
+    across, down = _texels(piece)
     column, row = np.meshgrid(np.arange(across) + 0.5, np.arange(down) + 0.5)
     reach = (row - down * (1 - depth)) / max(down * depth, 1e-9)
-    return _cut(sheet, np.abs(column / across - 0.5) * 2 >= reach)
+    return _cut(piece, positions, np.abs(column / across - 0.5) * 2 >= reach)
 
 
 @costs(4)
 def rounded_hem(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     depth: Annotated[float, Field(ge=0, le=0.9, description="share of the height it takes")] = 0.3,
-) -> Sheet:
+) -> Shape:
     """Cut whole texels out of the lower edge so that it is half an ellipse."""
-    across, down = _texels(sheet)
+    across, down = _texels(piece)
     column, row = np.meshgrid(np.arange(across) + 0.5, np.arange(down) + 0.5)
     below = np.maximum(row - down * (1 - depth), 0) / max(down * depth, 1e-9)
     aside = 2 * column / across - 1
-    return _cut(sheet, below * below + aside * aside <= 1 + (below == 0))
+    return _cut(piece, positions, below * below + aside * aside <= 1 + (below == 0))
 
 
 @costs(4)
 def fringe(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     length: Annotated[int, Field(ge=1, le=20, description="of the threads [texels]")] = 3,
     threads: Annotated[int, Field(ge=1, le=4, description="along two texels")] = 2,
     seed: Annotated[int, Field(ge=0, le=2**31, description="which lengths")] = 0,
-) -> Sheet:
+) -> Shape:
     """Threads at the lower edge, every other one of them cut out, of uneven lengths."""
-    across, down = _texels(sheet, threads)
+    across, down = _texels(piece, threads)
     least, most = -(-length * threads // 2), length * threads
     chance = np.random.default_rng(seed)
     lengths = chance.integers(least, most + 1, across)
     row, column = np.indices((down, across))
     solid, reach = row < down - most, down - most + lengths[column]
-    return _cut(sheet, solid | ((column % 2 == 0) & (row < reach)))
+    return _cut(piece, positions, solid | ((column % 2 == 0) & (row < reach)))
 
 
 @costs(4)
 def tear(
-    sheet: Sheet,
+    piece: Piece,
+    positions: Array,
     *,
     depth: Annotated[float, Field(ge=0, le=0.9, description="share of the height torn")] = 0.22,
     holes: Annotated[int, Field(ge=0, le=40, description="number of holes")] = 4,
     seed: Annotated[int, Field(ge=0, le=2**31, description="which tears")] = 0,
-) -> Sheet:
+) -> Shape:
     """Tear texels out of the lower edge and the sides, and holes into the cloth."""
-    across, down = _texels(sheet)
+    across, down = _texels(piece)
     chance = np.random.default_rng(seed)
     kept = np.ones((down, across), np.bool_)
     fringe = chance.random(across)
@@ -226,7 +238,7 @@ def tear(
         height, width = 1 + int(4 * chance.random()), 1 + int(2 * chance.random())
         kept[row : row + height, column : column + width] = False
         kept[min(row + height // 2, down - 1), column + width : column + width + 1] = False
-    return _cut(sheet, _held(kept))
+    return _cut(piece, positions, _held(kept))
 
 
 @dataclass(frozen=True)
@@ -248,11 +260,11 @@ class CutMapping:
         return np.where(np.repeat(outer, 4)[:, None], self.whole.rim(uvs, edges), beside)
 
 
-def _cut(sheet: Sheet, kept: NDArray[np.bool_]) -> Sheet:
-    """The sheet without some of its texels. kept: shape [texels down, texels across]."""
+def _cut(piece: Piece, positions: Array, kept: NDArray[np.bool_]) -> Shape:
+    """The piece without some of its texels. kept: shape [texels down, texels across]."""
     down, across = kept.shape
-    fine = _resampled(sheet, down + 1, across + 1, curved=True)
-    return fine.without_cells(kept, CutMapping(sheet.shell.uv_mapping))
+    fine, places = _resampled(piece, positions, down + 1, across + 1, curved=True)
+    return fine.without_cells(kept, CutMapping(piece.shell.uv_mapping)), places
 
 
 def _held(kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -264,16 +276,14 @@ def _held(kept: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return held
 
 
-def _resampled(sheet: Sheet, rows: int, columns: int, *, curved: bool) -> Sheet:
-    """The sheet at evenly spaced points of its grid, on straight lines or on curves."""
+def _resampled(piece: Piece, positions: Array, rows: int, columns: int, *, curved: bool) -> Shape:
+    """The piece at evenly spaced points of its grid, on straight lines or on curves."""
     if curved:
-        positions = on_curves(sheet.positions, sheet.grid_shape, (rows, columns))
+        positions = on_curves(positions, piece.grid_shape, (rows, columns))
     else:
-        points = _on_lines(_on_lines(sheet.grid, rows, -3), columns, -2)
+        points = _on_lines(_on_lines(piece.rows(positions), rows, -3), columns, -2)
         positions = points.reshape(*points.shape[:-3], rows * columns, 3)
-    return replace(
-        sheet, positions=positions, shell=grid_shell(rows, columns, sheet.shell.uv_mapping)
-    )
+    return replace(piece, shell=grid_shell(rows, columns, piece.shell.uv_mapping)), positions
 
 
 def _on_lines(points: Array, count: int, axis: int) -> Array:
@@ -332,9 +342,9 @@ def _least_beside(depths: Array, shifts: Array) -> Array:
     return least
 
 
-def _texels(sheet: Sheet, parts: int = 1) -> tuple[int, int]:
-    """How many texels the sheet has across and down, or parts of texels. Raises OptionError."""
-    across, down = (parts * max(1, round(side / sheet.texel)) for side in sheet.size)
+def _texels(piece: Piece, parts: int = 1) -> tuple[int, int]:
+    """How many texels the piece has across and down, or parts of texels. Raises OptionError."""
+    across, down = (parts * max(1, round(side / piece.texel)) for side in piece.size)
     if max(across, down) >= MAX_SIDE:
         raise OptionError(
             f"cloth of {across // parts} x {down // parts} texels is too large for a step that"

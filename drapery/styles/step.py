@@ -53,8 +53,8 @@ class StyleStep:
     kind: what it changes: `motion`, `shape`, `material` or `picture`.
     function: takes what it changes and keyword parameters with defaults, and returns the result:
 
-        motion: Sheet -> Sheet; the positions of all moments, shape [F, N, 3]
-        shape: Sheet -> Sheet or Mesh; one moment, shape [N, 3]
+        motion: Piece, positions of all moments [m], shape [F, N, 3] -> positions
+        shape: Piece, positions of one moment [m], shape [N, 3] -> Piece and positions, or Mesh
         material: Material -> Material, of the cloth
         picture: Canvas -> Canvas; or see `over_time`
 
@@ -70,9 +70,9 @@ class StyleStep:
     def __post_init__(self) -> None:
         one_of("kind of step", self.kind, STEP_KINDS)
         given = dict(self.parameters)
-        if faults := parameter_faults(self.function, given):
+        if faults := parameter_faults(self.kind, self.function, given):
             raise OptionError(f"step {self.name}: {next(iter(faults.values()))}")
-        model = parameter_model(self.function)(**given)
+        model = parameter_model(self.kind, self.function)(**given)
         values = tuple((name, getattr(model, name)) for name in type(model).model_fields)
         object.__setattr__(self, "parameters", values)
 
@@ -91,18 +91,23 @@ class StyleStep:
         """How many times as long as a plain step it takes; see `costs`."""
         return int(getattr(self.function, "cost", 1))
 
-    def apply(self, value: Any) -> Any:
-        """What the step makes of a value; see `function`."""
-        return self.function(value, **dict(self.parameters))
+    def apply(self, *values: Any) -> Any:
+        """What the step makes of what it changes; see `function`."""
+        return self.function(*values, **dict(self.parameters))
 
 
 @lru_cache(maxsize=256)
-def parameter_model(function: StepFunction) -> "type[BaseModel]":
+def parameter_model(kind: StepKind, function: StepFunction) -> "type[BaseModel]":
     """The parameters of a step's function as a pydantic model that refuses unknown names."""
     from pydantic import ConfigDict, create_model
 
     hints = get_type_hints(function, include_extras=True)
-    _, *own = signature(function).parameters.values()
+    taken = ("piece", "positions") if kind in ("motion", "shape") else (kind,)
+    every = [*signature(function).parameters.values()]
+    own = every[len(taken) :]
+    if sum(each.kind is not Parameter.KEYWORD_ONLY for each in every) < len(taken):
+        name = function.__name__
+        raise OptionError(f"step {name}: a step of {kind} takes {' and '.join(taken)} first")
     bare = [each.name for each in own if each.default is Parameter.empty]
     if bare:
         raise OptionError(f"step {function.__name__}: give {bare[0]} a default value")
@@ -112,11 +117,13 @@ def parameter_model(function: StepFunction) -> "type[BaseModel]":
     return model
 
 
-def parameter_faults(function: StepFunction, given: Mapping[str, Any]) -> dict[str, str]:
+def parameter_faults(
+    kind: StepKind, function: StepFunction, given: Mapping[str, Any]
+) -> dict[str, str]:
     """What is wrong with values of parameters: a message for each name; empty if nothing is."""
     from pydantic import ValidationError
 
-    model = parameter_model(function)
+    model = parameter_model(kind, function)
     try:
         model(**given)
     except ValidationError as error:
@@ -171,7 +178,7 @@ _KINDS: dict[object, str] = {
 
 def parameter_lines(step: StyleStep) -> list[str]:
     """The parameters of a step, one a line: name, value, meaning and limits."""
-    model = parameter_model(step.function)
+    model = parameter_model(step.kind, step.function)
     return [
         f"{name} = {as_toml(value)}  # {model.model_fields[name].description or name}"
         f" ({parameter_limits(model.model_fields[name])})"

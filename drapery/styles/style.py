@@ -5,12 +5,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from drapery.errors import OptionError
-from drapery.mesh import Mesh
+from drapery.mesh import Array, Mesh
 from drapery.option import one_of
 from drapery.render.backends import DrawScene, draw_with_buffers
 from drapery.render.buffers import Buffers
@@ -18,7 +18,7 @@ from drapery.render.frame import Frame
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
 from drapery.settings import Lighting, Options, Settings
-from drapery.style.sheet import Sheet
+from drapery.style.piece import Piece
 from drapery.styles.canvas import PLACES, Canvas, laid_over, large_pixel
 from drapery.styles.chain import chain_fault, makes_pixels
 from drapery.styles.colours import as_pixels
@@ -104,28 +104,35 @@ class Style:
             own["samples"] = self.samples
         return settings.changed(**own)
 
-    def move(self, sheet: Sheet) -> Sheet:
-        """The motion steps applied. sheet: all moments, positions of shape [F, N, 3]."""
-        moved: Sheet = self._applied("motion", sheet)
-        return moved
+    def move(self, piece: Piece, positions: Array) -> Array:
+        """The positions of a piece at all moments [m], [F, N, 3], after the motion steps."""
+        for step in self._of("motion"):
+            positions = step.apply(piece, positions)
+        return positions
 
-    def mesh(self, sheet: Sheet) -> Mesh:
-        """The shape steps applied, then the thickness. sheet: one moment. Raises OptionError."""
-        shaped: Any = sheet
+    def mesh(self, piece: Piece, positions: Array) -> Mesh:
+        """The shape steps applied, then the thickness. Raises OptionError.
+
+        positions: of the piece at one moment [m], shape [N, 3].
+        """
+        shaped: Mesh | tuple[Piece, Array] = piece, positions
         for step in self._of("shape"):
             if isinstance(shaped, Mesh):
                 raise OptionError(
                     f"style {self.name}: step {step.name} follows one that makes a mesh;"
                     " put it before that step"
                 )
-            shaped = step.apply(shaped)
-        return shaped if isinstance(shaped, Mesh) else shaped.mesh()
+            shaped = step.apply(*shaped)
+        if isinstance(shaped, Mesh):
+            return shaped
+        piece, positions = shaped
+        return piece.mesh(positions)
 
     def material(self, material: Material) -> Material:
         """The material steps applied; the same object for the same material, while it is cached."""
         if not self.has("material"):
             return material
-        return _materials.get((material,), self, lambda: self._applied("material", material))
+        return _materials.get((material,), self, lambda: self._dyed(material))
 
     def draw(self, scene: Scene | Frame, draw_scene: DrawScene) -> Frame:
         """A scene drawn by a backend, and the picture steps applied to all but its background.
@@ -206,10 +213,10 @@ class Style:
     def _of(self, kind: StepKind) -> Iterable[StyleStep]:
         return (step for step in self.steps if step.kind == kind)
 
-    def _applied(self, kind: StepKind, value: Any) -> Any:
-        for step in self._of(kind):
-            value = step.apply(value)
-        return value
+    def _dyed(self, material: Material) -> Material:
+        for step in self._of("material"):
+            material = step.apply(material)
+        return material
 
 
 def _page(picture: Scene | Frame) -> Page:

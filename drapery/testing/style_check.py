@@ -74,5 +74,5 @@ def _check_mesh(name: str, mesh: Mesh) -> None:
     if odd := [edge for edge, count in counts.items() if edge[0] != edge[1] and count % 2]:
         raise OptionError(
             f"style {name}: its mesh has a hole: {counted(len(odd), 'edge')} with an odd"
-            " number of triangles; return a Sheet, whose thickness closes it, or close the mesh"
+            " number of triangles; return a Piece, whose thickness closes it, or close the mesh"
         )

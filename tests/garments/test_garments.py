@@ -319,7 +319,7 @@ def test_a_texture_file_lies_beside_the_garment(tmp_path: Path) -> None:
         tailor(garment, open_packs(()))
     Image.new("RGBA", (64, 32), "red").save(tmp_path / "red.png")
     (sewn,) = tailor(garment, open_packs(()))
-    assert sewn.pieces[0].material.layers[0].texels.shape == (32, 64, 4)
+    assert sewn.pieces[0].material_at(0.0).layers[0].texels.shape == (32, 64, 4)
 
 
 def test_a_design_and_a_texture_replace_those_of_a_garment() -> None:

@@ -107,7 +107,7 @@ def test_a_flag_streams_down_the_wind_from_its_pole() -> None:
     for state in flag.flag_states(parameters, sewn, SHORT):
         hoist, fly = state.positions[0, :4], state.positions[0, -4:]
         np.testing.assert_allclose(hoist, cloth.rest_positions[:4], atol=1e-12)
-        assert (fly[:, 0] - hoist[:, 0]).min() > 0.6 * 44 * sewn.texel
+        assert (fly[:, 0] - hoist[:, 0]).min() > 0.6 * 44 * sewn.pieces[0].texel
         assert fly[:, 1].mean() < hoist[:, 1].mean()  # its weight shows
 
 

@@ -1,6 +1,5 @@
 """Flat and blocky scenes: the tutorial's curtain, the pixel cape, bends in steps, level texels."""
 
-from dataclasses import replace
 from itertools import islice
 
 import numpy as np
@@ -13,7 +12,7 @@ from drapery.scenes.dots import CapeTweaks, dot_grid, step
 from drapery.scenes.hero_cape import cape_dots, hooks_of, worn_dots
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.hero import LEGS, sprite
-from drapery.style.sheet import Sheet
+from drapery.style.piece import Piece
 from drapery.styles.grids import grid_shell
 from drapery.styles.shape_steps import boards, voxels
 
@@ -140,21 +139,25 @@ def test_the_art_is_enlarged_by_a_whole_number(debug) -> None:
     assert works <= colours if debug == "yes" else not works & colours
 
 
-def crumpled(flat: bool = False) -> Sheet:
+FLAG = Piece(grid_shell(6, 3, FLAG_MAPPING), SCALE, SCALE, FLAG_SIZE)
+
+
+def crumpled(flat: bool = False) -> np.ndarray:
     rows = np.zeros((6, 3, 3))
     rows[..., 0] = np.linspace(-0.4, 0.4, 3)
     bends = np.array([0.1, 0.5, 0.9, 0.3, -0.4])
     rows[1:, :, 1] = -0.3 * np.cumsum(np.cos(bends))[:, None]
     rows[1:, :, 2] = 0.3 * np.cumsum(np.sin(bends))[:, None]
-    positions = rows.reshape(-1, 3) * [1, 1, 0 if flat else 1]
-    return Sheet(positions, grid_shell(6, 3, FLAG_MAPPING), SCALE, SCALE, FLAG_SIZE)
+    positions: np.ndarray = rows.reshape(-1, 3) * [1, 1, 0 if flat else 1]
+    return positions
 
 
 @pytest.mark.parametrize("steps", [1, 4, 7])
 def test_steps_bend_only_by_whole_angles_and_keep_lengths(steps) -> None:
-    sheet = crumpled()
-    rows = boards(sheet, steps=steps).grid
-    np.testing.assert_allclose(rows[0], sheet.grid[0])
+    given = crumpled()
+    piece, bent = boards(FLAG, given, steps=steps)
+    rows = piece.rows(bent)
+    np.testing.assert_allclose(rows[0], FLAG.rows(given)[0])
     along = np.diff(rows[:, 1], axis=0)
     np.testing.assert_allclose(np.linalg.norm(along, axis=1), 0.3)
     turns = np.arctan2(along[:, 2], -along[:, 1]) / (np.pi / 2 / steps)
@@ -164,13 +167,12 @@ def test_steps_bend_only_by_whole_angles_and_keep_lengths(steps) -> None:
 
 def test_a_hanging_sheet_needs_no_steps() -> None:
     flat = crumpled(flat=True)
-    np.testing.assert_allclose(boards(flat, steps=4).positions, flat.positions, atol=1e-12)
+    np.testing.assert_allclose(boards(FLAG, flat, steps=4)[1], flat, atol=1e-12)
 
 
 def test_texels_of_a_steep_sheet_reach_back_to_their_neighbours() -> None:
-    sheet = crumpled()
-    steep = replace(sheet, positions=sheet.positions * [1, 1, 5])
-    blocks = voxels(steep).positions.reshape(40, 20, 24, 3)
+    steep = crumpled() * [1, 1, 5]
+    blocks = voxels(FLAG, steep).positions.reshape(40, 20, 24, 3)
     front, back = blocks[..., 2].max(axis=2), blocks[..., 2].min(axis=2)
     assert (np.abs(np.diff(front, axis=0)) / SCALE).max() > 2.5
     for one, other in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
@@ -180,7 +182,7 @@ def test_texels_of_a_steep_sheet_reach_back_to_their_neighbours() -> None:
 
 
 def test_snapped_texels_are_level_cubes_on_one_lattice() -> None:
-    mesh = voxels(crumpled())
+    mesh = voxels(FLAG, crumpled())
     cubes = mesh.positions.reshape(800, 24, 3)
     np.testing.assert_allclose(np.ptp(cubes, axis=1), SCALE)
     places = (cubes.mean(axis=1) - cubes[0].mean(axis=0)) / SCALE

@@ -154,10 +154,11 @@ def test_styles_that_are_joined_are_one_chain() -> None:
 
 
 def test_a_step_does_not_divide_cloth_into_too_many_texels() -> None:
-    large = replace(rippled(), size=(257 * TEXEL, TEXEL))
+    piece, positions = rippled()
+    large = replace(piece, size=(257 * TEXEL, TEXEL))
     for name in ("voxels", "level-texels", "swallow-tail", "rounded-hem", "fringe", "tear"):
         with pytest.raises(OptionError, match="cloth of 257 x 1 texels is too large for a step"):
-            STEPS["shape"][name](large)
+            STEPS["shape"][name](large, positions)
 
 
 def test_discs_around_marks_in_a_row_are_those_of_each_mark() -> None:
@@ -217,6 +218,8 @@ def test_a_step_of_ones_own_has_checked_parameters() -> None:
         StyleStep("picture", dim, {"share": 2})
     with pytest.raises(OptionError, match="kind of step 'sound' is not known"):
         StyleStep("sound", dim)  # type: ignore[arg-type]
+    with pytest.raises(OptionError, match="step dim: a step of shape takes piece and positions"):
+        StyleStep("shape", dim)
 
 
 @pytest.mark.parametrize(("kind", "name"), ALL_STEPS)
@@ -240,17 +243,17 @@ def test_options_win_over_the_light_and_samples_of_a_style() -> None:
 @pytest.mark.parametrize("name", [n for n in STEPS["shape"] if n != "voxels"])
 def test_a_shape_step_leaves_a_closed_mesh(name: str) -> None:
     style = Style(name, (StyleStep("shape", STEPS["shape"][name]),))
-    closed(style.mesh(rippled()))
+    closed(style.mesh(*rippled()))
 
 
 def test_shape_steps_work_one_after_the_other() -> None:
     steps = [StyleStep("shape", STEPS["shape"][n]) for n in ("smooth", "boards", "tear", "facets")]
-    closed(Style("many", tuple(steps)).mesh(rippled()))
+    closed(Style("many", tuple(steps)).mesh(*rippled()))
     with pytest.raises(OptionError, match="put it before the step that cuts it"):
-        Style("late", tuple(steps[2:0:-1])).mesh(rippled())
+        Style("late", tuple(steps[2:0:-1])).mesh(*rippled())
     voxels = StyleStep("shape", STEPS["shape"]["voxels"])
     with pytest.raises(OptionError, match="step smooth follows one that makes a mesh"):
-        Style("late", (voxels, steps[0])).mesh(rippled())
+        Style("late", (voxels, steps[0])).mesh(*rippled())
 
 
 def closed(mesh: Mesh) -> None:
@@ -262,15 +265,17 @@ def closed(mesh: Mesh) -> None:
 
 
 def test_smooth_goes_through_the_particles() -> None:
-    sheet = rippled()
-    fine = STEPS["shape"]["smooth"](sheet, times=4)
-    np.testing.assert_allclose(fine.grid[::4, ::4], sheet.grid, atol=1e-12)
+    piece, positions = rippled()
+    fine, between = STEPS["shape"]["smooth"](piece, positions, times=4)
+    given = piece.rows(positions)
+    np.testing.assert_allclose(fine.rows(between)[::4, ::4], given, atol=1e-12)
 
 
 def test_hold_shows_each_pose_for_several_frames() -> None:
-    moments = np.stack([rippled().positions + n for n in range(5)])
-    held = STEPS["motion"]["hold"](replace(rippled(), positions=moments), every=2)
-    assert [round(each[0, 0] - moments[0, 0, 0]) for each in held.positions] == [0, 0, 2, 2, 4]
+    piece, positions = rippled()
+    moments = np.stack([positions + n for n in range(5)])
+    held = STEPS["motion"]["hold"](piece, moments, every=2)
+    assert [round(each[0, 0] - moments[0, 0, 0]) for each in held] == [0, 0, 2, 2, 4]
 
 
 def test_a_loop_takes_motion_steps() -> None:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from drapery.errors import OptionError
-from drapery.mesh import Mesh
-from drapery.styles import Canvas, Sheet, Style, StyleStep, find_style
+from drapery.mesh import Array, Mesh
+from drapery.styles import Canvas, Piece, Style, StyleStep, find_style
 from drapery.styles.catalogue import PRESETS
 from drapery.styles.step import StepFunction, StepKind
 from drapery.testing import check_style
@@ -26,15 +26,15 @@ def crop(canvas: Canvas) -> Canvas:
     return replace(canvas, pixels=canvas.pixels[1:])
 
 
-def drift(sheet: Sheet) -> Sheet:
+def drift(piece: Piece, positions: Array) -> Array:
     """The cloth wanders aside during the loop."""
-    away = 0.06 * np.arange(len(sheet.positions))[:, None, None]
-    return replace(sheet, positions=sheet.positions + away * [1.0, 0, 0])
+    away = 0.06 * np.arange(len(positions))[:, None, None]
+    return positions + away * [1.0, 0, 0]
 
 
-def bare(sheet: Sheet) -> Mesh:
-    """A sheet without its back."""
-    mesh, part = sheet.mesh(), len(sheet.shell.sheet)
+def bare(piece: Piece, positions: Array) -> Mesh:
+    """A piece without its back."""
+    mesh, part = piece.mesh(positions), len(piece.shell.sheet)
     return replace(mesh, triangles=mesh.triangles[:part])
 
 

@@ -15,7 +15,7 @@ from drapery.packs import open_packs
 from drapery.render import Buffers, Material, TextureLayer
 from drapery.scenes import still
 from drapery.style import FLAG_MAPPING, FLAG_SIZE, flag_material
-from drapery.styles import STEPS, Canvas, Sheet, Style, StyleStep, find_style
+from drapery.styles import STEPS, Canvas, Style, StyleStep, find_style
 from drapery.styles.grids import grid_shell
 from drapery.styles.palette_files import read_palette
 from drapery.styles.void_and_cluster import LEVELS, SIDE, blue_noise
@@ -26,29 +26,30 @@ MOTION, PICTURE, SHAPE, MATERIAL = (
     STEPS["shape"],
     STEPS["material"],
 )
+FLAG, RIPPLES = rippled()
 
 
-def swaying(sideways: bool = False, count: int = 12) -> Sheet:
+def swaying(sideways: bool = False, count: int = 12) -> np.ndarray:
     """A flag that swings about its top edge, or its left one, and waves; a loop of `count`."""
-    sheet = rippled()
-    turn, waves = 2 * np.pi * np.arange(count) / count, sheet.positions[:, 2] - 0.02
-    far = sheet.shell.sheet_uvs[:, 0 if sideways else 1]
+    turn, waves = 2 * np.pi * np.arange(count) / count, RIPPLES[:, 2] - 0.02
+    far = FLAG.shell.sheet_uvs[:, 0 if sideways else 1]
     ahead = 0.8 * np.sin(turn)[:, None] * far + np.cos(turn)[:, None] * far * waves
-    rows, columns = sheet.grid_shape
+    rows, columns = FLAG.grid_shape
     flat = grid(columns, rows, *FLAG_SIZE).rest_positions
-    moving = flat + ahead[..., None] * [0.0, 0.0, 1.0]
-    return replace(sheet, positions=moving)
+    moving: np.ndarray = flat + ahead[..., None] * [0.0, 0.0, 1.0]
+    return moving
 
 
-def at_a_pole(sheet: Sheet) -> Sheet:
-    """The sheet turned so that its upper edge stands upright and the others are to its right."""
-    x, y, z = np.moveaxis(sheet.positions, -1, 0)
-    return replace(sheet, positions=np.stack([-y, x, z], axis=-1))
+def at_a_pole(positions: np.ndarray) -> np.ndarray:
+    """A flag turned so that its upper edge stands upright and the others are to its right."""
+    x, y, z = np.moveaxis(positions, -1, 0)
+    return np.stack([-y, x, z], axis=-1)
 
 
-def chain_angles(sheet: Sheet, sideways: bool, upright: bool) -> np.ndarray:
+def chain_angles(positions: np.ndarray, sideways: bool, upright: bool) -> np.ndarray:
     """The mean angle of each row to its rest position [degrees], shape [F, rows - 1]."""
-    rows = sheet.grid.swapaxes(1, 2) if sideways else sheet.grid
+    rows = FLAG.rows(positions)
+    rows = rows.swapaxes(1, 2) if sideways else rows
     x, y, z = np.moveaxis(np.diff(rows, axis=1).mean(axis=2), -1, 0)
     return np.degrees(np.arctan2(z, x if upright else -y))
 
@@ -59,19 +60,19 @@ def chain_angles(sheet: Sheet, sideways: bool, upright: bool) -> np.ndarray:
     ids=["top", "left", "pole"],
 )
 def test_snapped_angles_are_multiples_and_keep_lengths_and_the_held_edge(
-    given: Sheet, held: str
+    given: np.ndarray, held: str
 ) -> None:
-    snapped = MOTION["snap-angles"](given, degrees=12.0)
+    snapped = MOTION["snap-angles"](FLAG, given, degrees=12.0)
     sideways, upright = held == "left", held != "top"
     steps = chain_angles(snapped, sideways, upright) / 12
     np.testing.assert_allclose(steps, np.round(steps), atol=1e-9)
     off = 12 * steps - chain_angles(given, sideways, upright)
     assert 4 < np.abs(off).max() < 0.7 * 12 + 1e-9
     axis = 2 if sideways else 1
-    pieces = [np.diff(sheet.grid, axis=axis) for sheet in (given, snapped)]
+    pieces = [np.diff(FLAG.rows(each), axis=axis) for each in (given, snapped)]
     np.testing.assert_allclose(*(np.linalg.norm(each, axis=-1) for each in pieces), atol=1e-12)
     edge = (slice(None), slice(None), 0) if sideways else (slice(None), 0)
-    assert np.array_equal(snapped.grid[edge], given.grid[edge])
+    assert np.array_equal(FLAG.rows(snapped)[edge], FLAG.rows(given)[edge])
 
 
 def test_a_snapped_angle_does_not_flicker_between_two_neighbours() -> None:
@@ -79,24 +80,23 @@ def test_a_snapped_angle_does_not_flicker_between_two_neighbours() -> None:
     flat = grid(5, 9, *FLAG_SIZE).rest_positions
     x, down = flat[:, 0] + 0 * angles, flat[0, 1] - flat[:, 1]
     tilted = np.stack([x, flat[0, 1] - np.cos(angles) * down, np.sin(angles) * down], axis=-1)
-    sheet = replace(rippled(), positions=tilted)
-    snapped = MOTION["snap-angles"](sheet, degrees=15.0).positions
+    snapped = MOTION["snap-angles"](FLAG, tilted, degrees=15.0)
     np.testing.assert_allclose(snapped, np.broadcast_to(snapped[:1], snapped.shape), atol=1e-12)
 
 
 @pytest.mark.parametrize("sideways", [False, True])
 def test_squash_stretches_along_the_velocity_and_keeps_the_volume(sideways: bool) -> None:
     given = swaying(sideways)
-    moved = MOTION["squash"](given, strength=0.5)
+    moved = MOTION["squash"](FLAG, given, strength=0.5)
     first = (slice(None), slice(None), 0) if sideways else (slice(None), 0)
-    assert np.array_equal(moved.grid[first], given.grid[first])
-    same = MOTION["squash"](given, strength=0.0)
-    assert np.array_equal(same.positions, given.positions)
+    assert np.array_equal(FLAG.rows(moved)[first], FLAG.rows(given)[first])
+    same = MOTION["squash"](FLAG, given, strength=0.0)
+    assert np.array_equal(same, given)
     # At the fastest moment the flag swings ahead: it is narrower and shorter by the same factor.
-    size = [np.ptp(sheet.positions[0], axis=0)[:2] for sheet in (moved, given)]
+    size = [np.ptp(each[0], axis=0)[:2] for each in (moved, given)]
     free = [
-        sheet.grid[0, -1, :, 0] if not sideways else sheet.grid[0, :, -1, 1]
-        for sheet in (moved, given)
+        FLAG.rows(each)[0, -1, :, 0] if not sideways else FLAG.rows(each)[0, :, -1, 1]
+        for each in (moved, given)
     ]
     np.testing.assert_allclose(np.ptp(free[0]) / np.ptp(free[1]), 1.5**-0.5, rtol=2e-3)
     along = 0 if sideways else 1
@@ -106,8 +106,8 @@ def test_squash_stretches_along_the_velocity_and_keeps_the_volume(sideways: bool
 @pytest.mark.parametrize("name", ["snap-angles", "squash"])
 def test_a_motion_step_has_no_seam(name: str) -> None:
     given = swaying(count=12)
-    later = replace(given, positions=np.roll(given.positions, 5, axis=0))
-    one, other = (MOTION[name](sheet).positions for sheet in (given, later))
+    later = np.roll(given, 5, axis=0)
+    one, other = (MOTION[name](FLAG, each) for each in (given, later))
     np.testing.assert_allclose(np.roll(one, 5, axis=0), other, atol=1e-12)
 
 
@@ -124,7 +124,7 @@ def test_a_still_has_snapped_angles_too() -> None:
 
 def cells(name: str, **parameters: object) -> np.ndarray:
     """Which cells of its grid a shape step keeps: half the number of its triangles in each row."""
-    shell = SHAPE[name](rippled(), **parameters).shell
+    shell = SHAPE[name](FLAG, RIPPLES, **parameters)[0].shell
     down = len(np.unique(shell.sheet_uvs[:, 1])) - 1
     rows = (shell.sheet_uvs[shell.sheet].mean(axis=1)[:, 1] * down).astype(int)
     return np.bincount(rows, minlength=down) // 2
@@ -164,10 +164,10 @@ def test_steps_of_materials_take_textures_of_any_size(name: str) -> None:
 
 
 def test_level_texels_are_flat_on_levels_and_leave_no_gap() -> None:
-    sheet = replace(rippled(), thickness=0.5 / 24)
-    mesh = SHAPE["level-texels"](sheet, step=0.5)
+    thin, rows = replace(FLAG, thickness=0.5 / 24), FLAG.rows(RIPPLES)
+    mesh = SHAPE["level-texels"](thin, RIPPLES, step=0.5)
     faces = mesh.positions.reshape(40, 20, 6, 4, 3)
-    right, down = np.array([1.0, 0, 0]), (sheet.grid[-1] - sheet.grid[0]).mean(axis=0)
+    right, down = np.array([1.0, 0, 0]), (rows[-1] - rows[0]).mean(axis=0)
     ahead = mesh.normals.reshape(40, 20, 6, 4, 3)[0, 0, 0, 0]
     assert abs(ahead @ right) < 0.05 and abs(ahead @ down) < 1e-9
     np.testing.assert_allclose(mesh.normals.reshape(faces.shape)[:, :, 0] @ ahead, 1)
@@ -218,8 +218,7 @@ def test_bevelled_texels_have_one_bright_and_one_dark_corner() -> None:
 
 def test_each_face_of_a_cube_shows_its_texel_upright() -> None:
     """Its corners lie in the texel of its middle, the upper left one above and to the left."""
-    sheet = rippled()
-    faces = SHAPE["voxels"](sheet).uvs.reshape(40, 20, 6, 4, 2)
+    faces = SHAPE["voxels"](FLAG, RIPPLES).uvs.reshape(40, 20, 6, 4, 2)
     middle = faces.mean(axis=3)
     assert (np.abs(faces - middle[..., None, :]) * 64 < 0.5).all()
     front, left = faces[3, 4, 0], faces[3, 4, 2]
@@ -231,9 +230,10 @@ def test_tears_stay_within_a_low_sheet() -> None:
     shell = grid_shell(9, 9, FLAG_MAPPING)
     flat = np.zeros((81, 3))
     flat[:, 0], flat[:, 1] = shell.sheet_uvs[:, 0] * 0.5, -shell.sheet_uvs[:, 1] * 0.5
-    low = replace(rippled(), positions=flat, shell=shell, size=(0.5, 0.5), texel=1 / 16)
+    low = replace(FLAG, shell=shell, size=(0.5, 0.5), texel=1 / 16)
     for seed in range(40):
-        assert len(SHAPE["tear"](low, depth=0.9, holes=40, seed=seed).shell.sheet)
+        torn, _ = SHAPE["tear"](low, flat, depth=0.9, holes=40, seed=seed)
+        assert len(torn.shell.sheet)
 
 
 def test_scanlines_darken_every_third_row() -> None:

@@ -1,5 +1,6 @@
-"""Thin cloth between simulation and picture, from which the thick one is made."""
+"""A piece of thin cloth: what is drawn around its particles, wherever they are."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -8,54 +9,64 @@ from numpy.typing import NDArray
 
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh, Triangles
-from drapery.style.extrusion import Shell, make_shell, thicken
+from drapery.render.scene import Material, TextureLayer
+from drapery.style.extrusion import Shell, make_shell
 from drapery.style.refinement import cover_curves
 from drapery.style.uv_mapping import UVMapping
 
+MaterialAt = Callable[[float], Material]
+"""The material at a time [s]; the same object for as long as it looks the same."""
+
+WHITE = Material((TextureLayer(np.full((1, 1, 4), 255, np.uint8)),))
+"""The material of a piece that has none of its own."""
+
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
-    """Cloth before it gets its thickness: what the motion and shape steps of a style change.
+class Piece:
+    """Thin cloth before it gets its thickness; what the motion and shape steps of a style change.
 
-    positions: of the particles [m], shape [N, 3] row by row from the top left, or [F, N, 3] for the
-        F moments of a motion, or for F equal cloths; y is up and the front looks to +z at rest.
+    A step gets it with the positions of its vertices [m], row by row from the top left: shape
+    [N, 3] of one moment, [F, N, 3] of F moments; y is up and the front looks to +z at rest.
+
     shell: its triangles, its texture coordinates and the surface around it.
     thickness: of the cloth [m].
     texel: the edge of a texel [m].
-    size: width and height [m].
+    size: width and height at rest [m].
+    material_at: its material at a time [s].
+    name: in 3-D files, such as `banner/cloth`.
     facets: whether edges are sharp.
     finer: the shell around curves through the particles of a whole grid, which is drawn; None
         where `shell` is, as in all that shape steps get.
     """
 
-    positions: Array
     shell: Shell
     thickness: float
     texel: float
     size: tuple[float, float]
+    material_at: MaterialAt = lambda time: WHITE
+    name: str = ""
     facets: bool = False
     finer: Shell | None = None
 
     @property
     def grid_shape(self) -> tuple[int, int]:
-        """Rows and columns of particles. Raises OptionError for a sheet with cells cut out."""
+        """Rows and columns of vertices. Raises OptionError for a piece with cells cut out."""
         if self.shell.grid is None:
             raise OptionError("this step needs a whole sheet; put it before the step that cuts it")
         return self.shell.grid
 
-    @property
-    def grid(self) -> Array:
-        """The positions as rows and columns, shape [..., rows, columns, 3].
+    def rows(self, positions: Array) -> Array:
+        """Positions [..., N, 3] as rows and columns, shape [..., rows, columns, 3].
 
-        Raises OptionError for a sheet with cells cut out.
+        Raises OptionError for a piece with cells cut out.
         """
-        return self.positions.reshape(*self.positions.shape[:-2], *self.grid_shape, 3)
+        return positions.reshape(*positions.shape[:-2], *self.grid_shape, 3)
 
-    def without_cells(self, kept: NDArray[np.bool_], uv_mapping: UVMapping) -> "Sheet":
-        """The sheet with only the cells that are kept, shape [rows - 1, columns - 1].
+    def without_cells(self, kept: NDArray[np.bool_], uv_mapping: UVMapping) -> "Piece":
+        """The piece with only the cells that are kept, shape [rows - 1, columns - 1].
 
         uv_mapping: where its front, back and new rim lie on the texture.
-        Raises OptionError for a sheet with cells cut out.
+        Raises OptionError for a piece with cells cut out.
         """
         (rows, columns), whole = self.grid_shape, self.shell
         middles = whole.sheet_uvs[whole.sheet].mean(axis=1)
@@ -64,13 +75,17 @@ class Sheet:
         cut = make_shell(whole.sheet[kept[row, column]], whole.sheet_uvs, uv_mapping)
         return replace(self, shell=cut)
 
-    def mesh(self) -> Mesh:
-        """The closed mesh: two sheets and a rim, along the averaged normals or with sharp edges."""
+    def mesh(self, positions: Array, normals: Array | None = None) -> Mesh:
+        """The closed mesh: two sheets and a rim, along the normals or with sharp edges.
+
+        positions: of its vertices [m], shape [..., N, 3].
+        normals: of them; the averaged ones of its own triangles unless given.
+        """
+        if normals is None:
+            normals = self.shell.normals(positions)
         if self.finer is not None:
-            normals = self.shell.normals(self.positions)
-            shape = self.grid_shape
-            return cover_curves(self.finer, shape, self.positions, normals, self.thickness)
-        thick = thicken(self.shell, self.positions, self.thickness)
+            return cover_curves(self.finer, self.grid_shape, positions, normals, self.thickness)
+        thick = self.shell.cover(positions, normals, self.thickness)
         return faceted(thick, _corners(self.shell)) if self.facets else thick
 
 
