@@ -102,10 +102,11 @@ class RemoteStore:
         """See `Store`."""
         fs, path = self._at(name)
         try:
-            fs.makedirs(path.rpartition("/")[0], exist_ok=True)
             if self.url.partition("://")[0] in WHOLE_AT_ONCE:
+                # Without `makedirs`: there are no folders, and it would make a missing bucket.
                 fs.pipe_file(path, data)
             else:
+                fs.makedirs(path.rpartition("/")[0], exist_ok=True)
                 beside = f"{path}.{os.getpid()}.part"
                 fs.pipe_file(beside, data)
                 fs.mv(beside, path)
@@ -161,8 +162,9 @@ def _file_system(url: str) -> tuple[Any, str]:
 
         fs, root = url_to_fs(url)
     except ImportError as error:
-        missing = error.name or "fsspec with what it needs for this address"
-        raise OutputError(f"{url}: {missing} is missing; install it") from None
+        # fsspec names the library that an address needs: "Install s3fs to access S3".
+        reason = f"{error.name} is missing; install it" if error.name else str(error)
+        raise OutputError(f"{url}: {reason}") from None
     except Exception as error:
         raise OutputError(f"{url} cannot be opened: {_why(error)}") from None
     return fs, str(root)

@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
+import fsspec
 import psutil
 import pytest
 from batch_works import manifest, pictures
@@ -114,6 +115,22 @@ def test_a_store_that_cannot_be_listed_is_no_empty_store(
     monkeypatch.setattr(Path, "stat", refuse)
     with pytest.raises(OutputError, match="cannot find out whether"):
         near.sizes(["a.png"])
+
+
+def test_no_bucket_is_made_where_the_address_has_a_typo(monkeypatch: pytest.MonkeyPatch) -> None:
+    def makes(*_: object, **__: object) -> None:
+        pytest.fail("a bucket is made")
+
+    monkeypatch.setattr("fsspec.implementations.memory.MemoryFileSystem.makedirs", makes)
+    store = open_store("memory://drapery-typo/test")
+    store.write("guilds/red.png", b"red")
+    assert store.read("guilds/red.png") == b"red"
+
+
+def test_the_library_that_an_address_needs_is_named() -> None:
+    fsspec.register_implementation("far", "no_library.Far", errtxt="Install far-fs to access Far")
+    with pytest.raises(OutputError, match=r"^far://bucket/x: Install far-fs to access Far$"):
+        open_store("far://bucket/x")
 
 
 def test_outputs_go_to_any_target_of_fsspec(tmp_path: Path) -> None:
