@@ -20,6 +20,8 @@ Doubles = NDArray[np.float64]
 
 PALE = 0.4
 """The largest share of dark places that strokes of paper cover."""
+GROWTH, WIDEST = 5.0, 1.6
+"""How fast strokes of ink grow as it becomes darker, and up to how wide [widths]."""
 SLOTS = 8192
 """Colours that a kernel remembers; a power of two."""
 
@@ -175,11 +177,26 @@ def tone(words: Words, dark: Doubles, light: Doubles, gamma: float) -> None:
             row[x] = values[slot]
 
 
+@kernel
+def _covered(across: Any, width: Any, spacing: float, foot: float) -> Any:
+    """How much of a place strokes cover that begin at each `spacing`, 0 to 1.
+
+    across: of the middle of the place from the begin of a stroke, 0 to `spacing`. width: of the
+    strokes. foot: width of the place. All [pixels].
+    """
+    first, last = across - foot / 2, across + foot / 2
+    own = min(last, width) - max(first, 0.0)
+    return min((max(own, 0.0) + max(min(last - spacing, width), 0.0)) / foot, 1.0)
+
+
 @entry_point
 def hatch(
     words: Words, model: Whole, strokes: Doubles, grid: int, pen: Doubles, ink: int, paper: int
 ) -> None:
     """Strokes on models, the more the darker, and strokes of paper on ink where it is darker still.
+
+    Their width follows the tone from nothing on, and pixels that they cover in part are mixed: a
+    stroke that came at its full width would flicker where light moves over cloth.
 
     strokes: cosine and sine of each direction across the strokes, and the darkness from which on
         there are any, float64 [S, 3]. grid: see `Canvas`.
@@ -188,24 +205,34 @@ def hatch(
     ink, paper: words.
     """
     spacing, width, strength, solid, turned, ended = pen
+    red, green, blue = _bytes(np.uint32(paper))
+    r, g, b = _bytes(np.uint32(ink))
     for y in range(words.shape[0]):
         row, models = words[y], model[y]
         for x in range(len(row)):
             if models[x] < 0 or row[x] < 0x1000000:
                 continue
             black = 1 - _brightness(row[x]) / 255
-            dark, drawn = strength * black, black > solid
+            dark, share = strength * black, 1.0 if black > solid else 0.0
             for number in range(len(strokes)):
                 least = strokes[number, 2]
-                if drawn or dark <= least:
+                if share == 1.0 or dark <= least:
                     break
                 place = x / grid * strokes[number, 0] + y / grid * strokes[number, 1]
-                across = place - np.floor(place / spacing) * spacing
                 if dark > turned:
-                    drawn = across >= PALE * spacing * (ended - dark) / (ended - turned)
+                    # Strokes of paper lie where those of ink leave paper.
+                    pale = PALE * spacing * max(ended - dark, 0.0) / (ended - turned)
+                    across = place + pale - np.floor((place + pale) / spacing) * spacing
+                    share = 1 - _covered(across, pale, spacing, 1 / grid)
                     break
-                drawn = across < width * min(max((dark - least) * 3 + 0.5, 0.0), 1.6)
-            row[x] = (row[x] & 0xFF000000) | np.int64(ink if drawn else paper)
+                across = place - np.floor(place / spacing) * spacing
+                wide = width * min((dark - least) * GROWTH, WIDEST)
+                share += (1 - share) * _covered(across, wide, spacing, 1 / grid)
+            own = np.int64(256 * share + 0.5)
+            mixed = (own * r + (256 - own) * red + 128) >> 8
+            mixed |= (own * g + (256 - own) * green + 128) >> 8 << 8
+            mixed |= (own * b + (256 - own) * blue + 128) >> 8 << 16
+            row[x] = (row[x] & 0xFF000000) | mixed
 
 
 @kernel

@@ -286,11 +286,20 @@ def test_strokes_are_of_paper_where_it_is_dark_and_end_where_it_is_black() -> No
         grey = np.full((96, 96, 4), level, np.uint8)
         grey[..., 3] = 255
         drawn = PICTURE["hatching"](shown_model(grey), turned=0.6, spacing=8, width=2).pixels
-        assert len(np.unique(drawn.reshape(-1, 4), axis=0)) <= 2
         shares.append(float((drawn[..., 0] < 128).mean()))
     assert shares[0] == 0.0 and shares[-1] == 1.0
     assert shares == sorted(shares)
     assert 0.6 <= shares[3] < shares[4] < 1.0
+
+
+def test_strokes_grow_with_the_tone_from_nothing() -> None:
+    drawn = []
+    for level in range(255, 9, -1):
+        grey = np.full((48, 48, 4), level, np.uint8)
+        grey[..., 3] = 255
+        drawn.append(PICTURE["hatching"](shown_model(grey), spacing=8, width=2).pixels)
+    assert not np.any(drawn[0] - drawn[20]) and drawn[-1][..., 0].mean() < 128
+    assert np.abs(np.diff(np.stack(drawn).astype(int), axis=0)).max() < 24
 
 
 def test_a_drop_shadow_is_moved_and_lies_below() -> None:
