@@ -17,6 +17,8 @@ ROUNDS = 3
 """How often `snap_angles` goes around a loop: after that the end leads to the start."""
 UPRIGHT = 0.7
 """A held row whose unit vector has a larger upward part stands upright, as at a flag's pole."""
+CALMED = 8
+"""With so many more frames of a loop `calm` reaches one frame farther."""
 SEAM = 3.0
 """A motion whose end is so many times as far from its start as its frames are apart is no loop."""
 
@@ -29,6 +31,28 @@ def hold(
 ) -> Array:
     """Show each pose for several frames, as hand-drawn animation does. A still does not change."""
     return positions[np.arange(len(positions)) // every * every]
+
+
+def calm(
+    piece: Piece,
+    positions: Array,
+    *,
+    frames: Annotated[int, Field(ge=2, le=60, description="from a pose until it fades out")] = 3,
+) -> Array:
+    """Slow folds: each pose is a mean of those around it, which count less the farther they are.
+
+    What comes and goes within a few frames, such as a ripple and the shade on it, is gone. A still
+    does not change, nor does a loop of fewer than eight frames.
+    """
+    count = len(positions)
+    reach = min(frames, 1 + count // CALMED)
+    places, total = np.arange(count), reach * positions
+    for away in range(1, reach):
+        for beside in (places - away, places + away):
+            at = beside % count if _is_loop(positions) else np.clip(beside, 0, count - 1)
+            total = total + (reach - away) * positions[at]
+    calmed: Array = total / reach**2
+    return calmed
 
 
 def snap_angles(
@@ -146,8 +170,14 @@ def _turned(vectors: Array, axes: Array, angles: Array) -> Array:
 def _velocity(middles: Array) -> Array:
     """The velocity of a point over a loop [m a frame], shape [F, 3]."""
     steps = np.roll(middles, -1, axis=0) - middles
-    lengths = np.sqrt(np.sum(steps * steps, axis=-1))
-    if len(steps) > 2 and lengths[-1] > SEAM * lengths[:-1].max():
+    if not _is_loop(middles):
         steps[-1] = 0.0
     velocity: Array = (steps + np.roll(steps, 1, axis=0)) / 2
     return velocity
+
+
+def _is_loop(places: Array) -> bool:
+    """Whether the end of a motion leads to its start. places: of its moments, shape [F, ..., 3]."""
+    steps = np.roll(places, -1, axis=0) - places
+    lengths = np.sqrt((steps * steps).reshape(len(steps), -1).sum(axis=1))
+    return len(steps) < 3 or bool(lengths[-1] <= SEAM * lengths[:-1].max())

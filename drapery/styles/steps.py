@@ -7,7 +7,7 @@ from drapery.styles import material_steps, motion_steps, picture_steps, pixel_st
 from drapery.styles.step import StepFunction, StepKind
 
 _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
-    "motion": (motion_steps.hold, motion_steps.snap_angles, motion_steps.squash),
+    "motion": (motion_steps.calm, motion_steps.hold, motion_steps.snap_angles, motion_steps.squash),
     "shape": (
         shape_steps.thickness,
         shape_steps.smooth,

@@ -302,6 +302,18 @@ def test_strokes_grow_with_the_tone_from_nothing() -> None:
     assert np.abs(np.diff(np.stack(drawn).astype(int), axis=0)).max() < 24
 
 
+def test_calm_poses_are_means_over_the_seam_of_a_loop() -> None:
+    def calmed(heights: list[int]) -> list[float]:
+        poses = np.zeros((len(heights), *RIPPLES.shape))
+        poses[..., 1] = np.array(heights)[:, None]
+        calm: np.ndarray = MOTION["calm"](FLAG, poses)
+        return calm[:, 0, 1].tolist()
+
+    assert calmed([9] + 15 * [0]) == [3, 2, 1] + 11 * [0] + [1, 2]
+    assert calmed([*range(16)]) == pytest.approx([4 / 9, 10 / 9, *range(2, 14), 125 / 9, 131 / 9])
+    assert calmed([9, 0, 3, 0, 9, 1, 0]) == [9, 0, 3, 0, 9, 1, 0]
+
+
 def test_a_drop_shadow_is_moved_and_lies_below() -> None:
     given = replace(canvas(), pixels=square())
     drawn = PICTURE["drop-shadow"](given, right=4, down=6, blur=0, strength=0.5).pixels
