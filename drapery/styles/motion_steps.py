@@ -17,6 +17,8 @@ ROUNDS = 3
 """How often `snap_angles` goes around a loop: after that the end leads to the start."""
 UPRIGHT = 0.7
 """A held row whose unit vector has a larger upward part stands upright, as at a flag's pole."""
+LEAST_POSES = 4
+"""So many poses a loop has at least, if it has as many frames."""
 CALMED = 8
 """With so many more frames of a loop `calm` reaches one frame farther."""
 SEAM = 3.0
@@ -29,7 +31,11 @@ def hold(
     *,
     every: Annotated[int, Field(ge=1, le=60, description="frames that show one pose")] = 2,
 ) -> Array:
-    """Show each pose for several frames, as hand-drawn animation does. A still does not change."""
+    """Show each pose for several frames, as hand-drawn animation does. A still does not change.
+
+    A loop has at least four poses, or a pose for each of its frames if those are fewer.
+    """
+    every = min(every, max(1, len(positions) // LEAST_POSES))
     return positions[np.arange(len(positions)) // every * every]
 
 

@@ -273,15 +273,29 @@ def test_smooth_goes_through_the_particles() -> None:
 
 def test_hold_shows_each_pose_for_several_frames() -> None:
     piece, positions = rippled()
-    moments = np.stack([positions + n for n in range(5)])
+    moments = np.stack([positions + n for n in range(9)])
     held = STEPS["motion"]["hold"](piece, moments, every=2)
-    assert [round(each[0, 0] - moments[0, 0, 0]) for each in held] == [0, 0, 2, 2, 4]
+    assert [round(each[0, 0] - moments[0, 0, 0]) for each in held] == [0, 0, 2, 2, 4, 4, 6, 6, 8]
+
+
+@pytest.mark.parametrize("count", [1, 4, 7])
+def test_a_short_loop_holds_no_pose(count: int) -> None:
+    piece, positions = rippled()
+    moments = np.stack([positions + n for n in range(count)])
+    assert np.array_equal(STEPS["motion"]["hold"](piece, moments, every=60), moments)
+
+
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_each_frame_of_a_short_loop_of_pixel_art_has_a_pose_of_its_own(count: int) -> None:
+    options: Any = {"size": (90, 120), "grid": (5, 9), "style": "pixel-art"}
+    frames = animate(BANNER, seconds=count / 5, fps=5, **options).frames
+    assert len({frame.pixels.tobytes() for frame in frames}) == count
 
 
 def test_a_loop_takes_motion_steps() -> None:
     style = Style("held", (StyleStep("motion", STEPS["motion"]["hold"], {"every": 2}),))
-    frames = animate(BANNER, style=style, seconds=0.4, fps=10, size=(40, 50)).frames
-    first, second, third, fourth = (frame.pixels for frame in frames)
+    frames = animate(BANNER, style=style, seconds=0.8, fps=10, size=(40, 50)).frames
+    first, second, third, fourth = (frame.pixels for frame in frames[:4])
     assert np.array_equal(first, second) and np.array_equal(third, fourth)
     assert not np.array_equal(first, third)
 
