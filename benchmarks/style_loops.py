@@ -4,9 +4,15 @@ For each style, or each that is named, and each size:
 
 - off: how far the still pictures of some designs are from the plain ones, as the mean over red,
   green and blue of all pixels where both show something, and over the designs [levels];
-- flicker: the share of such pixels in a loop of the first design which differ by more than FAR
-  levels of brightness from the frames before and after, which are alike. Of poses that are held,
-  frames that are so far apart.
+- on the screen: the share of such pixels in a loop of each design which differ by more than FAR
+  levels of brightness from the frames before and after, which are alike;
+- on the cloth: the same of points of the cloth, which are followed by their texture coordinates. A
+  point is about a pixel, and its brightness is blended from the four pixels around it;
+- on both: the share of pixels that flicker on the screen and show a point that flickers, too.
+
+A line that moves with the cloth flickers on the screen alone, and one that stands on the screen on
+the cloth alone: both are motion. What is fixed to neither flickers on both. Of poses that are held,
+frames that are so far apart are compared.
 """
 
 import argparse
@@ -19,7 +25,7 @@ from rich.table import Table
 from benchmarks.quick import add_quick
 from drapery import Banner, Settings, animate, draw
 from drapery.render import Pixels
-from drapery.styles import find_style, style_names
+from drapery.styles import Canvas, Style, StyleStep, find_style, style_names
 
 DESIGNS = (
     "black skull:white border:red gradient_up:purple",
@@ -32,6 +38,11 @@ DESIGNS = (
 FAR, NEAR = 48, 24
 """Levels by which a pixel that flickers differs at least, and the frames beside it at most."""
 FPS = 20.0
+SHEET, TEXELS_HIGH = 64, 85
+"""Texels across a texture, and from top to bottom of a picture."""
+
+Levels = NDArray[np.float64]
+Marks = NDArray[np.bool_]
 
 
 def off(one: Pixels, other: Pixels) -> float:
@@ -41,22 +52,75 @@ def off(one: Pixels, other: Pixels) -> float:
     return float(apart[both].mean())
 
 
-def flicker(frames: list[Pixels], apart: int) -> float:
-    """The share of pixels that differ from those `apart` frames before and after, which agree."""
+class Followed:
+    """Where each point of the cloth is in each frame of a loop.
+
+    side: points along a side of the texture. places: row and column of each, in pixels, shape
+    [side * side, 2] a frame; NaN where it is not seen. points: the number of the point that each
+    pixel shows, shape [H, W] a frame; side * side for none.
+    """
+
+    def __init__(self, height: int) -> None:
+        self.side = SHEET * max(1, round(height / TEXELS_HIGH))
+        self.places: list[Levels] = []
+        self.points: list[NDArray[np.intp]] = []
+        self.step = StyleStep("picture", self._follow)
+
+    def _follow(self, canvas: Canvas) -> Canvas:
+        found, scale, side = canvas.buffers, canvas.pixel / canvas.grid, self.side
+        models, counts = np.unique(found.model[found.coverage], return_counts=True)
+        at = np.clip((found.uv * side).astype(np.intp), 0, side - 1)
+        cloth = found.model == models[np.argmax(counts)]
+        point = np.where(cloth, at[..., 1] * side + at[..., 0], side * side)
+        ravelled, every = point.reshape(-1), side * side + 1
+        seen = np.bincount(ravelled, minlength=every)
+        places = [
+            np.bincount(ravelled, (axis.reshape(-1) + 0.5) * scale - corner, every)
+            for axis, corner in zip(np.indices(point.shape), canvas.corner, strict=True)
+        ]
+        mean = np.stack(places, axis=-1) / np.where(seen, seen, np.nan)[:, None]
+        self.places.append(mean[:-1])
+        top, left = canvas.corner
+        middle = point[canvas.grid // 2 :: canvas.grid, canvas.grid // 2 :: canvas.grid]
+        large = middle.repeat(canvas.pixel, axis=0).repeat(canvas.pixel, axis=1)
+        self.points.append(large[top:, left:])
+        return canvas
+
+
+def flicker(frames: list[Pixels], apart: int, followed: Followed) -> tuple[float, float, float]:
+    """The shares of what differs from `apart` frames before and after: screen, cloth, both."""
     pixels = np.stack(frames)
-    shown = pixels[..., 3] > 0
-    bright: NDArray[np.float64] = pixels[..., :3] @ np.array([0.299, 0.587, 0.114])
+    bright: Levels = pixels[..., :3] @ np.array([0.299, 0.587, 0.114])
+    screen, shown = _leaving(bright, pixels[..., 3] > 0, apart)
+    places = np.stack(followed.places)
+    tracked = np.stack([_blended(*each) for each in zip(bright, places, strict=True)])
+    cloth, seen = _leaving(tracked, ~np.isnan(places[..., 0]), apart)
+    height, width = bright.shape[1:]
+    none = np.zeros((len(cloth), 1), np.bool_)
+    points = np.stack([each[:height, :width] for each in followed.points])
+    beneath = np.concatenate([cloth, none], axis=1)[np.arange(len(cloth))[:, None, None], points]
+    both = np.count_nonzero(screen & beneath)
+    return screen.sum() / shown, cloth.sum() / seen, both / shown
+
+
+def _leaving(bright: Levels, shown: Marks, apart: int) -> tuple[Marks, int]:
+    """What differs from before and after, which are alike, and how many are shown three times."""
     before, after = np.roll(bright, apart, axis=0), np.roll(bright, -apart, axis=0)
     all_shown = shown & np.roll(shown, apart, axis=0) & np.roll(shown, -apart, axis=0)
     leaves = np.minimum(np.abs(bright - before), np.abs(bright - after)) > FAR
     found = leaves & (np.abs(before - after) < NEAR) & all_shown
-    return float(np.count_nonzero(found) / np.count_nonzero(all_shown))
+    return found, int(np.count_nonzero(all_shown))
 
 
-def held(name: str) -> int:
-    """For how many frames a style shows a pose."""
-    steps = find_style(name).steps if name != "plain" else ()
-    return max([1, *(dict(step.parameters)["every"] for step in steps if step.name == "hold")])
+def _blended(bright: Levels, places: Levels) -> Levels:
+    """The brightness at places in a picture, shape [P, 2], from four pixels each."""
+    most = np.array(bright.shape) - 1.001
+    at = np.clip(np.nan_to_num(places) - 0.5, 0, most)
+    (row, column), (down, right) = at.astype(np.intp).T, (at % 1).T
+    upper = bright[row, column] * (1 - right) + bright[row, column + 1] * right
+    lower = bright[row + 1, column] * (1 - right) + bright[row + 1, column + 1] * right
+    blended: Levels = upper * (1 - down) + lower * down
+    return blended
 
 
 def main() -> None:
@@ -64,23 +128,36 @@ def main() -> None:
     parser.add_argument("styles", nargs="*", default=["plain", *style_names()])
     parser.add_argument("--sizes", type=int, nargs="+", default=[128, 256], help="[pixels]")
     parser.add_argument("--seconds", type=float, default=2.0, help="length of the loop")
+    parser.add_argument("--loops", type=int, default=2, help="designs of which a loop is drawn")
     add_quick(parser)
     given = parser.parse_args()
     if given.quick:
-        given.sizes, given.seconds = [32], 0.3
+        given.sizes, given.seconds, given.loops = [32], 0.3, 1
     designs = [Banner.parse(each) for each in DESIGNS[: 1 if given.quick else None]]
-    table = Table("style", "size", "off [levels]", "flicker")
+    table = Table("style", "size", "off [levels]", "on the screen", "on the cloth", "on both")
     for size in given.sizes:
         settings = Settings(size=(size, size))
         plain = [draw(each, settings).pixels for each in designs]
         for name in given.styles:
-            styled = settings if name == "plain" else settings.changed(style=(name,))
-            drawn = [draw(each, styled).pixels for each in designs]
-            loop = animate(designs[0], styled, seconds=given.seconds, fps=FPS)
-            share = flicker([frame.pixels for frame in loop.frames], held(name))
+            style = Style("plain") if name == "plain" else find_style(name)
+            drawn = [draw(each, settings, style=style).pixels for each in designs]
+            shares = [
+                _flicker_of(each, settings, style, given.seconds) for each in designs[: given.loops]
+            ]
             levels = np.mean([off(*pair) for pair in zip(plain, drawn, strict=True)])
-            table.add_row(name, str(size), f"{levels:.1f}", f"{share:.2%}")
+            percents = [f"{share:.2%}" for share in np.mean(shares, axis=0)]
+            table.add_row(name, str(size), f"{levels:.1f}", *percents)
     Console().print(table)
+
+
+def _flicker_of(
+    design: Banner, settings: Settings, style: Style, seconds: float
+) -> tuple[float, float, float]:
+    followed = Followed(settings.size[1])
+    watched = style | Style("followed", (followed.step,))
+    loop = animate(design, settings, style=watched, seconds=seconds, fps=FPS)
+    every = [dict(step.parameters)["every"] for step in style.steps if step.name == "hold"]
+    return flicker([frame.pixels for frame in loop.frames], max([1, *every]), followed)
 
 
 if __name__ == "__main__":
