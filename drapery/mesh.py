@@ -57,6 +57,21 @@ def make_mesh(positions: ArrayLike, triangles: ArrayLike, uvs: ArrayLike | None 
     return Mesh(points, vertex_normals(points, faces), faces, places)
 
 
+def grid_surface(rows: int, columns: int) -> tuple[Triangles, Array]:
+    """The triangles of a grid of points, row by row from the top left, and their UVs.
+
+    Two a cell, counter-clockwise seen from +z: shape [2 (rows - 1) (columns - 1), 3]. The UVs are
+    0..1 from the top left: shape [rows * columns, 2].
+    """
+    across, down = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
+    index = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
+    a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
+    lower = np.stack([a, b, c], axis=-1).reshape(-1, 3)
+    upper = np.stack([a, c, d], axis=-1).reshape(-1, 3)
+    triangles = np.stack([lower, upper], axis=1).reshape(-1, 3)
+    return triangles, np.stack([across, down], axis=-1).reshape(-1, 2)
+
+
 def face_normals(positions: Array, triangles: Triangles) -> Array:
     """Triangle normals, shape [..., T, 3], with length twice the triangle's area [m²]."""
     a, b, c = (positions[..., triangles[:, corner], :] for corner in range(3))

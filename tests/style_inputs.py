@@ -6,8 +6,8 @@ from drapery.cloth import grid
 from drapery.mesh import Array
 from drapery.render import Buffers
 from drapery.style import FLAG_MAPPING, FLAG_SIZE
+from drapery.style.grids import grid_shell
 from drapery.styles import Canvas, Piece
-from drapery.styles.grids import grid_shell
 
 TEXEL = 1 / 24
 """A texel of a flag [m]."""

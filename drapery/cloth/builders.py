@@ -9,7 +9,7 @@ from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
 from drapery.cloth.fabric import Fabric
 from drapery.cloth.pins import Pins, pinned_particles
 from drapery.errors import OptionError, shown
-from drapery.mesh import Array
+from drapery.mesh import Array, grid_surface
 
 MAX_PARTICLES = 1_000_000
 MIN_SIZE, MAX_SIZE = 1e-6, 1e6
@@ -38,8 +38,7 @@ def grid(
     check_particles("grid", columns * rows)
     for name, size in (("width", width), ("height", height)):
         check_size(f"grid {name}", size)
-    across, down = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
-    uvs = np.stack([across, down], axis=-1).reshape(-1, 2)
+    triangles, uvs = grid_surface(rows, columns)
     rest = np.zeros((rows * columns, 3))
     rest[:, 0] = (uvs[:, 0] - 0.5) * width
     rest[:, 1] = -uvs[:, 1] * height
@@ -54,7 +53,7 @@ def grid(
         spring_length=np.linalg.norm(rest[pairs[:, 1]] - rest[pairs[:, 0]], axis=1),
         spring_stiffness=np.array(fabric.stiffness)[kinds],
         spring_kind=kinds,
-        triangles=_grid_triangles(rows, columns),
+        triangles=triangles,
         uvs=uvs,
         grid_shape=(rows, columns),
         drag=fabric.drag,
@@ -134,15 +133,6 @@ def _grid_springs(rows: int, columns: int) -> tuple[NDArray[np.int32], NDArray[n
     pairs = np.concatenate([np.stack([a.ravel(), b.ravel()], axis=1) for _, a, b in groups])
     kinds = np.concatenate([np.full(a.size, kind, np.uint8) for kind, a, _ in groups])
     return pairs, kinds
-
-
-def _grid_triangles(rows: int, columns: int) -> NDArray[np.int32]:
-    """Two triangles a cell, counter-clockwise seen from +z."""
-    index = np.arange(rows * columns, dtype=np.int32).reshape(rows, columns)
-    a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
-    lower = np.stack([a, b, c], axis=-1).reshape(-1, 3)
-    upper = np.stack([a, c, d], axis=-1).reshape(-1, 3)
-    return np.stack([lower, upper], axis=1).reshape(-1, 3)
 
 
 def spring_lengths(positions: Array, cloth: Cloth) -> Array:

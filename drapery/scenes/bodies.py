@@ -40,10 +40,10 @@ from drapery.settings import Settings
 from drapery.style.body import Body, Panel, Solid
 from drapery.style.extrusion import Shell, thicken
 from drapery.style.finish import finished
+from drapery.style.grids import finer_shell
 from drapery.style.piece import Piece
 from drapery.style.refinement import cells_per_cell, finer_shape
 from drapery.style.uv_mapping import UVMapping
-from drapery.styles.grids import finer_shell, grid_shell
 
 STEP = 1.0 / 60.0
 """The longest time step of a picture, and the time step of live cloth [s]."""
@@ -148,8 +148,8 @@ def cloth_spec(panel: Panel, settings: Settings, solids: Sequence[Solid] = ()) -
     met = solids if settings.contact != "none" else ()
     x, y, z = map(float, panel.origin)
     moved = tuple(Solid(_less(solid.low, x, y, z), _less(solid.high, x, y, z)) for solid in met)
-    thickness = max(settings.thickness, THINNEST) * panel.texel
-    made = settings.grid, panel.size, pins, settings.solver, settings.fabric
+    thickness = max(settings.thickness, THINNEST) * panel.piece.texel
+    made = settings.grid, panel.piece.size, pins, settings.solver, settings.fabric
     return ClothSpec(*made, moved, settings.contact == "all", thickness, panel.fullness)
 
 
@@ -196,28 +196,27 @@ class StagedBody:
     def stiff(self, phases: Sequence[float]) -> list[Mesh]:
         """The stiff parts, then each panel as the game draws it, at a phase 0..1 of its sway."""
         panels = zip(self.body.panels, phases, strict=True)
-        thickness = self.staging.settings.thickness
-        boards = (panel.board(phase, thickness) for panel, phase in panels)
+        boards = (panel.board(phase) for panel, phase in panels)
         return [*self.parts, *map(self.staging.turned, boards)]
 
     def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
         """The meshes with the materials of a time [s]; body: another one, which gives them."""
         shown = body or self.body
         materials = [part.material_at(time) for part in shown.parts]
-        materials += [self._material(panel, time) for panel in shown.panels]
-        names = [part.name for part in shown.parts] + [panel.name for panel in shown.panels]
+        materials += [self._material(panel.piece, time) for panel in shown.panels]
+        names = [part.name for part in shown.parts] + [each.piece.name for each in shown.panels]
         return [
             Model(mesh, (made,), name=name)
             for mesh, made, name in zip(meshes, materials, names, strict=True)
         ]
 
-    def _material(self, panel: Panel, time: float) -> Material:
-        """The material of a panel at a time [s] in the style, with the finish of its fabric."""
+    def _material(self, piece: Piece, time: float) -> Material:
+        """The material of a piece at a time [s] in the style, with the finish of its fabric."""
         settings = self.staging.settings
-        material = self.staging.style.material(panel.material_at(time))
+        material = self.staging.style.material(piece.material_at(time))
         if settings.finish == "plain" or settings.pose != "cloth":
             return material
-        return with_finish(material, settings.fabric, panel.uv_mapping, panel.size)
+        return with_finish(material, settings.fabric, piece.shell.uv_mapping, piece.size)
 
     def moved(self, motions: Sequence[Array]) -> list[Array]:
         """The motion of each panel after the style's steps. motions: [m], each [F, N, 3]."""
@@ -292,11 +291,7 @@ class StagedBody:
         return [[n * frame / count for n in sways] for frame in range(count)]
 
     def _piece(self, panel: Panel) -> Piece:
-        columns, rows = self.staging.settings.grid
-        thickness = self.staging.settings.thickness * panel.texel
-        shell = grid_shell(rows, columns, panel.uv_mapping)
-        finer = finer_shell(shell, self.times)
-        return Piece(shell, thickness, panel.texel, panel.size, finer=finer)
+        return replace(panel.piece, finer=finer_shell(panel.piece.shell, self.times))
 
     def _thick(self, panel: Panel, sheet: Array) -> Mesh:
         piece, positions = self._piece(panel), sheet + panel.origin

@@ -42,12 +42,12 @@ from drapery.style.block import turn_matrix
 from drapery.style.block_world import Cell, blocks
 from drapery.style.board import moved
 from drapery.style.body import Part
+from drapery.style.grids import finer_shell
 from drapery.style.ground import ground_of
 from drapery.style.piece import Piece
 from drapery.style.refinement import cells_per_cell
 from drapery.style.rig import moved_rig
 from drapery.style.scenery import pole, pole_frame
-from drapery.styles.grids import finer_shell
 
 WORN_STEP = STEP / 2
 """The longest time step of cloth on a wearer, whose legs move fast [s]."""

@@ -39,9 +39,9 @@ from drapery.settings import Settings
 from drapery.style.block import turn_centre, turn_matrix
 from drapery.style.body import Body, Panel
 from drapery.style.extrusion import Shell
+from drapery.style.grids import finer_shell
 from drapery.style.live_figure import LiveFigure, pose_figure
 from drapery.style.live_shell import LiveShell, cover, make_live_shell
-from drapery.styles.grids import finer_shell, grid_shell
 
 SPARE = MAX_LAYERS + 2
 """Layers of a design: the bare cloth, its base and its patterns."""
@@ -194,16 +194,16 @@ def _played_cloth(staged: StagedBody, panel: Panel, step: float = STEP) -> Playe
     settings = staged.staging.settings
     wind = wind_of(settings)
     sheltered = settings.placement == "wall" and isinstance(settings.wind, int | float)
-    columns, rows = settings.grid
+    (rows, columns), piece = panel.piece.grid_shape, panel.piece
     return PlayedCloth(
         cloth_at_rest(cloth_spec(panel, settings, staged.body.solids), step),
         forces_of(settings, wind),
         wind,
-        grid_shell(rows, columns, panel.uv_mapping),
-        settings.thickness * panel.texel,
+        piece.shell,
+        piece.thickness,
         panel.origin,
         lee=(1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0),
-        header={"columns": columns, "rows": rows, "size": list(map(float, panel.size))},
+        header={"columns": columns, "rows": rows, "size": list(map(float, piece.size))},
     )
 
 

@@ -8,8 +8,7 @@ from typing import Literal
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import GAME_LIGHT, Light
-from drapery.style.piece import MaterialAt
-from drapery.style.uv_mapping import UVMapping
+from drapery.style.piece import MaterialAt, Piece
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,29 +42,20 @@ def half_space(axis: int, end: float) -> Solid:
 class Panel:
     """A rectangle of cloth. In its own frame its top edge runs along x through the origin.
 
-    size: width and height [m].
+    piece: how it is drawn, a whole grid; its name is that in 3-D files, such as `banner/cloth`.
     origin: place of the middle of its top edge [m], shape [3].
-    texel: the unit of its thickness [m].
-    uv_mapping: where its sides lie on the texture; hashable.
     pins: which particles are pinned.
-    board: its stiff shape in the game, in its place, at a phase 0..1 of its sway and of a
-        thickness [texels].
+    board: its stiff shape in the game, in its place, at a phase 0..1 of its sway.
     sway: the period of that sway [s]; None where it does not move in the game.
-    material_at: its material at a time [s].
     fullness: how much wider its cloth is than its top edge, on which it is gathered.
-    name: in 3-D files, such as `banner/cloth`.
     """
 
-    size: tuple[float, float]
+    piece: Piece
     origin: Array
-    texel: float
-    uv_mapping: UVMapping
     pins: Literal["top", "corners"]
-    board: Callable[[float, float], Mesh]
+    board: Callable[[float], Mesh]
     sway: float | None
-    material_at: MaterialAt
     fullness: float = 0.0
-    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)

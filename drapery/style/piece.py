@@ -33,7 +33,7 @@ class Piece:
     texel: the edge of a texel [m].
     size: width and height at rest [m].
     material_at: its material at a time [s].
-    name: in 3-D files, such as `banner/cloth`.
+    name: in 3-D files.
     facets: whether edges are sharp.
     finer: the shell around curves through the particles of a whole grid, which is drawn; None
         where `shell` is, as in all that shape steps get.

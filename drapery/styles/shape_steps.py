@@ -11,10 +11,10 @@ from drapery.elementary import arctan2, cos, sin
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.vectors import dots
+from drapery.style.grids import grid_shell
 from drapery.style.piece import Piece
 from drapery.style.refinement import MAX_SIDE, on_curves
 from drapery.style.uv_mapping import UVMapping
-from drapery.styles.grids import grid_shell
 from drapery.styles.step import costs
 
 Shape = tuple[Piece, Array]

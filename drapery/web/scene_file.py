@@ -262,7 +262,8 @@ def _with_sheets(body: Body, packs: Packs, patterns: Sequence[str]) -> tuple[Bod
     if not body.panels:
         plate, *others = body.parts
         return replace(body, parts=(replace(plate, material_at=at), *others)), names
-    return replace(body, panels=tuple(replace(p, material_at=at) for p in body.panels)), names
+    panels = (replace(p, piece=replace(p.piece, material_at=at)) for p in body.panels)
+    return replace(body, panels=tuple(panels)), names
 
 
 def _state(live: LiveBody, shown: Body) -> ViewerState:

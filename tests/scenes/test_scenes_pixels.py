@@ -11,9 +11,9 @@ from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.dots import CapeTweaks, dot_grid, step
 from drapery.scenes.hero_cape import cape_dots, hooks_of, worn_dots
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
+from drapery.style.grids import grid_shell
 from drapery.style.hero import LEGS, sprite
 from drapery.style.piece import Piece
-from drapery.styles.grids import grid_shell
 from drapery.styles.shape_steps import boards, voxels
 
 NONE = CapeTweaks(False, False, False, False)

@@ -17,8 +17,8 @@ from drapery.packs import open_packs
 from drapery.render import Scene
 from drapery.scenes import still
 from drapery.style import FLAG_MAPPING
+from drapery.style.grids import finer_shell, grid_shell
 from drapery.style.refinement import MAX_SIDE, cells_per_cell, cover_curves, finer_shape, on_curves
-from drapery.styles.grids import finer_shell, grid_shell
 
 BANNER = Banner.parse("white creeper:lime border:black")
 LARGE, SMALL = (720, 960), (360, 480)

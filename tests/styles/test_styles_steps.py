@@ -15,8 +15,8 @@ from drapery.packs import open_packs
 from drapery.render import Buffers, Material, TextureLayer
 from drapery.scenes import still
 from drapery.style import FLAG_MAPPING, FLAG_SIZE, flag_material
+from drapery.style.grids import grid_shell
 from drapery.styles import STEPS, Canvas, Style, StyleStep, find_style
-from drapery.styles.grids import grid_shell
 from drapery.styles.palette_files import read_palette
 from drapery.styles.void_and_cluster import LEVELS, SIDE, blue_noise
 

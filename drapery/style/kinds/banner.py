@@ -16,7 +16,9 @@ from drapery.style.block import (
     wood,
 )
 from drapery.style.body import Body, Panel, Part
+from drapery.style.grids import grid_shell
 from drapery.style.layers import flag_material_at, textures_period, wood_material_at
+from drapery.style.piece import Piece
 from drapery.style.slot import BANNER_POSE, SLOT_LIGHT, in_slot, slot_camera
 
 FULLNESS = 0.08
@@ -33,17 +35,22 @@ def body(banner: Banner | None, packs: Packs, settings: Settings) -> Body:
 
 
 def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placement) -> Body:
-    flag = Panel(
-        FLAG_SIZE,
-        flag_origin(placement),
+    columns, rows = settings.grid
+    piece = Piece(
+        grid_shell(rows, columns, FLAG_MAPPING),
+        settings.thickness * SCALE,
         SCALE,
-        FLAG_MAPPING,
-        "top",
-        lambda phase, thickness: stiff_flag(placement, phase, thickness),
-        SWAY_PERIOD,
+        FLAG_SIZE,
         flag_material_at(banner, packs, settings),
-        FULLNESS,
         "banner/cloth",
+    )
+    flag = Panel(
+        piece,
+        flag_origin(placement),
+        "top",
+        lambda phase: stiff_flag(placement, phase, settings.thickness),
+        SWAY_PERIOD,
+        FULLNESS,
     )
     frame = Part(wood(placement), wood_material_at(packs, settings), "banner/pole")
     period = textures_period(banner, packs, "banner")

@@ -10,7 +10,9 @@ from drapery.settings import Settings
 from drapery.style.board import moved, stiff_board, tilted
 from drapery.style.body import Body, Panel, Solid, half_space
 from drapery.style.figure import CAPE_SIZE, PARTS, TEXEL, cape_mapping
+from drapery.style.grids import grid_shell
 from drapery.style.kinds.back import SHEET, SHOULDERS, back_texture
+from drapery.style.piece import Piece
 
 CAPE_MAPPING = cape_mapping(SHEET)
 BACK = 2.6
@@ -22,17 +24,17 @@ LEAN = 6.0
 def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """The cape, with a hole where its texture is transparent. Raises OptionError or PackError."""
     material = Material((TextureLayer(back_texture(settings, packs, CAPE_MAPPING)),), "cutout")
-    cape = Panel(
-        CAPE_SIZE,
-        np.array(SHOULDERS),
+    columns, rows = settings.grid
+    piece = Piece(
+        grid_shell(rows, columns, CAPE_MAPPING),
+        settings.thickness * TEXEL,
         TEXEL,
-        CAPE_MAPPING,
-        "top",
-        lambda phase, thickness: _stiff(thickness),
-        None,
+        CAPE_SIZE,
         lambda time: material,
-        name="cape/cloth",
+        "cape/cloth",
     )
+    shoulders = np.array(SHOULDERS)
+    cape = Panel(piece, shoulders, "top", lambda phase: _stiff(settings.thickness), None)
     return Body((), (cape,), solids=_wearer())
 
 

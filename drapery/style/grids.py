@@ -2,7 +2,7 @@
 
 from functools import lru_cache
 
-from drapery.cloth import grid
+from drapery.mesh import grid_surface
 from drapery.style.extrusion import Shell, make_shell
 from drapery.style.refinement import finer_shape
 from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
@@ -13,8 +13,8 @@ def grid_shell(rows: int, columns: int, uv_mapping: UVMapping = SHEET_MAPPING) -
     """The shell of a whole grid with the triangles of a cloth: one object for the same numbers,
     which renderers recognise by identity.
     """
-    cloth = grid(columns, rows, 1.0, 1.0, pins="none")
-    return make_shell(cloth.triangles, cloth.uvs, uv_mapping, cloth.grid_shape)
+    triangles, uvs = grid_surface(rows, columns)
+    return make_shell(triangles, uvs, uv_mapping, (rows, columns))
 
 
 def finer_shell(shell: Shell, times: int) -> Shell | None:
