@@ -15,7 +15,7 @@ from drapery.comparison.files import MAX_PIXELS, opened, picture_bytes
 from drapery.errors import OptionError, counted
 from drapery.file_formats import LOOP_READERS, READERS
 from drapery.picture_pixels import Channels, pixels_of, sixteen_bit_pixels
-from drapery.render import Animation, Frame, Pixels
+from drapery.render import Animation, Frame
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,11 +166,3 @@ def _of_array(source: Any) -> Channels:
         alpha = np.full((*pixels.shape[:2], 1), most, pixels.dtype)
         pixels = np.concatenate([pixels, alpha], axis=-1)
     return pixels
-
-
-def eight_bit_frames(picture: Picture) -> tuple[Pixels, ...]:
-    """The frames to be shown: of 16 bits the upper eight."""
-    return tuple(
-        frame if frame.dtype == np.uint8 else (frame >> 8).astype(np.uint8)
-        for frame in picture.frames
-    )
