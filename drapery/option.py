@@ -16,7 +16,7 @@ Effect: TypeAlias = Literal[
     "motion", "wind", "shape", "surface", "animation", "camera", "light", "file"
 ]
 """What an option changes: how the cloth moves, the wind, what stands where, textures and materials,
-the moment of animated textures, the camera, the light, or the pixels of a file."""
+the moment of animated textures, the camera, the light, or the pixels and frames of a file."""
 Output: TypeAlias = Literal["still", "loop", "model", "page", "live", "face", "link"]
 """What is made: a picture, an animation, a 3-D file, a page of live cloth, the studio's live view,
 a face without cloth, or the address of a design in the studio."""
