@@ -24,7 +24,7 @@ GROUP = "drapery.styles"
 ENDING = ".toml"
 
 PRESETS = (
-    *("game", "smooth", "few-bends", "boards", "voxel", "low-poly", "tattered"),
+    *("game", "few-bends", "boards", "voxel", "low-poly", "tattered"),
     *("woven", "felt", "embroidered", "hatched", "stained-glass"),
     *("pixel-art", "cel", "ink", "blueprint"),
 )
