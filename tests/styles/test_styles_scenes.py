@@ -50,7 +50,7 @@ def test_a_style_changes_light_shape_material_and_picture_of_a_scene() -> None:
 
 def test_poses_are_held_in_scenes() -> None:
     style = Style("held", (StyleStep("motion", STEPS["motion"]["hold"], {"every": 2}),))
-    first, second, third, _ = words(style, count=4)
+    first, second, third, *_ = words(style, count=8)
     assert np.array_equal(first, second) and not np.array_equal(second, third)
 
 
