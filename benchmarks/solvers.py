@@ -19,6 +19,7 @@ from rich.console import Console
 from rich.table import Table
 
 from benchmarks.quick import add_quick
+from drapery.arrays import Pixels
 from drapery.cloth import (
     Cloth,
     Drag,
@@ -35,7 +36,7 @@ from drapery.cloth.collisions import Collisions
 from drapery.cloth.solvers.registry import SOLVERS, solver
 from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.contact import contact_table
-from drapery.render.frame import Frame, Pixels
+from drapery.render.frame import Frame
 from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.soft import draw_scene
 from drapery.render.views import View, frame_points

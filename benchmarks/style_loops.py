@@ -24,7 +24,7 @@ from rich.table import Table
 
 from benchmarks.quick import add_quick
 from drapery import Banner, Settings, animate, draw
-from drapery.render import Pixels
+from drapery.arrays import Pixels
 from drapery.styles import Canvas, Style, StyleStep, find_style, style_names
 
 DESIGNS = (

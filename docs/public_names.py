@@ -9,6 +9,7 @@ import griffe
 
 PACKAGES = {
     "drapery": "`draw`, `animate`, `Banner`, `Settings`, the errors",
+    "drapery.arrays": "the types of arrays in signatures, by their shape",
     "drapery.banner": "designs and the forms in which they are written",
     "drapery.packs": "resource packs",
     "drapery.cloth": "the simulation: cloths, forces, colliders, solvers",

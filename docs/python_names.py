@@ -75,6 +75,8 @@ def _signature(name: str, found: griffe.Object) -> str:
         returns = f" -> {found.returns}" if found.returns else ""
         return _call(name, list(_parameters(found.parameters)), returns)
     annotation, value = getattr(found, "annotation", None), str(getattr(found, "value", ""))
+    if alias := re.fullmatch(r"TypeAliasType\('\w+', (.*)\)", value):
+        return f"{name} = {alias[1]}"
     if str(annotation) in ("None", "TypeAlias") and name[:2] != name[:2].upper():
         return f"{name} = {value}"  # a name of types
     return f"{name}: {annotation}" if annotation else name

@@ -10,8 +10,8 @@ simulated cloth its thickness and textures, `drapery.styles` changes how it look
 draws meshes, `drapery.garments` cuts garments and dresses players, `drapery.scenes` hangs cloth
 before a camera and plays ready-made scenes, `drapery.comparison` and `drapery.sheets` compare and
 list pictures, `drapery.match` finds designs that look like a picture, `drapery.batch` draws a
-manifest of pictures, `drapery.testing` checks pictures against golden ones. Names are loaded when
-they are first used.
+manifest of pictures, `drapery.testing` checks pictures against golden ones, `drapery.arrays` names
+the types of arrays. Names are loaded when they are first used.
 """
 
 from pathlib import Path

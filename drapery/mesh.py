@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from drapery.arrays import Triangles, UVs, Vectors
 from drapery.errors import OptionError
 
 Array = NDArray[np.floating[Any]]
-Triangles = NDArray[np.int32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,10 +24,10 @@ class Mesh:
         corner and v grows downwards, as in an image and in glTF.
     """
 
-    positions: Array
-    normals: Array
+    positions: Vectors
+    normals: Vectors
     triangles: Triangles
-    uvs: Array
+    uvs: UVs
 
 
 def make_mesh(positions: ArrayLike, triangles: ArrayLike, uvs: ArrayLike | None = None) -> Mesh:
@@ -57,7 +57,7 @@ def make_mesh(positions: ArrayLike, triangles: ArrayLike, uvs: ArrayLike | None 
     return Mesh(points, vertex_normals(points, faces), faces, places)
 
 
-def grid_surface(rows: int, columns: int) -> tuple[Triangles, Array]:
+def grid_surface(rows: int, columns: int) -> tuple[Triangles, UVs]:
     """The triangles of a grid of points, row by row from the top left, and their UVs.
 
     Two a cell, counter-clockwise seen from +z: shape [2 (rows - 1) (columns - 1), 3]. The UVs are
@@ -72,13 +72,13 @@ def grid_surface(rows: int, columns: int) -> tuple[Triangles, Array]:
     return triangles, np.stack([across, down], axis=-1).reshape(-1, 2)
 
 
-def face_normals(positions: Array, triangles: Triangles) -> Array:
+def face_normals(positions: Vectors, triangles: Triangles) -> Vectors:
     """Triangle normals, shape [..., T, 3], with length twice the triangle's area [m²]."""
     a, b, c = (positions[..., triangles[:, corner], :] for corner in range(3))
     return np.cross(b - a, c - a)
 
 
-def vertex_normals(positions: Array, triangles: Triangles) -> Array:
+def vertex_normals(positions: Vectors, triangles: Triangles) -> Vectors:
     """Unit normals, shape [..., V, 3]: the average of the faces at a vertex, weighted by area.
 
     A vertex without area around it gets (0, 0, 1), never NaN.

@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from drapery.arrays import Triangles
 from drapery.errors import OptionError, counted
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 from drapery.mesh_headers import CHECKS, MAX_PARTS, MeshLimits
 from drapery.user_files import read_user_file, shown_path
 

@@ -12,7 +12,7 @@ from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.contents import PackReport, describe_packs
 from drapery.banner.packs.memory import MemoryPack
 from drapery.banner.packs.pack import Pack, open_pack
-from drapery.banner.packs.png import Texels, png_size, read_png
+from drapery.banner.packs.png import png_size, read_png
 from drapery.banner.packs.sources import PackSource
 from drapery.banner.packs.stack import PackLike
 from drapery.banner.packs.versions import LAST_MASK_FORMAT, PACK_FORMATS, PackFormat
@@ -27,7 +27,6 @@ __all__ = [
     "PackReport",
     "PackSource",
     "Packs",
-    "Texels",
     "describe_packs",
     "open_pack",
     "open_packs",

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from PIL.Image import Image
 
-Channels = NDArray[Any]
-"""Pixels of 8 or 16 bits a channel, uint8 or uint16, shape [H, W, 4], top row first."""
 
 _SIXTEEN = ("I;16", "I;16B", "I;16L", "I;16N")
 """Pillow's modes of grey with 16 bits."""

@@ -20,9 +20,7 @@ from drapery.errors import OptionError, shown
 from drapery.option import Effect, Option, Output, Subject, within
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from drapery.arrays import Texels
     from drapery.cloth import Fabric, Force, Solver, Wind
     from drapery.packs import PackLike
     from drapery.render import DrawScene, View
@@ -84,7 +82,7 @@ class Options(TypedDict, total=False):
     packs: PackLike | Sequence[PackLike]
     format: int | None
     kind: Kind
-    texture: str | Path | NDArray[np.uint8] | None
+    texture: str | Path | Texels | None
     pose: Pose
     placement: Placement
     rotation: int
@@ -214,7 +212,7 @@ class Settings:
         affects=("motion", "shape"),
         not_for=(*_BY_FILE, "link"),
     )
-    texture: str | Path | NDArray[np.uint8] | None = _option(
+    texture: str | Path | Texels | None = _option(
         None,
         Path,
         "Texture of a cape or elytra: a PNG file, 64 x 32 or a multiple",

@@ -69,7 +69,7 @@ if TYPE_CHECKING:
     from drapery.render.encode.webp import webp_bytes as webp_bytes
     from drapery.render.export import save_scenes as save_scenes
     from drapery.render.flatten import composite_layers as composite_layers
-    from drapery.render.frame import Animation as Animation, Frame as Frame, Pixels as Pixels
+    from drapery.render.frame import Animation as Animation, Frame as Frame
     from drapery.render.light import (
         GAME_LIGHT as GAME_LIGHT,
         UNLIT as UNLIT,
@@ -84,7 +84,6 @@ if TYPE_CHECKING:
         Model as Model,
         Scene as Scene,
         SurfaceDetail as SurfaceDetail,
-        Texels as Texels,
         TextureLayer as TextureLayer,
     )
     from drapery.render.shadow import contact_shadow as contact_shadow

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Texels
 from drapery.errors import OptionError
-from drapery.render.scene import Texels
 
 PADDING = 1
 """Texels around each sprite, copies of its border: they keep neighbours out of inexact sampling."""

@@ -5,6 +5,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Floats, Integers, Mask, UVs, Vectors
+
 BACKGROUND = -1
 """The model, and the material, of a pixel that shows none."""
 
@@ -26,14 +28,14 @@ class Buffers:
         of alpha and light have one number.
     """
 
-    depth: NDArray[np.float32]
-    normal: NDArray[np.float32]
-    model: NDArray[np.int32]
-    uv: NDArray[np.float32]
-    material: NDArray[np.int32]
+    depth: Floats
+    normal: Vectors
+    model: Integers
+    uv: UVs
+    material: Integers
 
     @property
-    def coverage(self) -> NDArray[np.bool_]:
+    def coverage(self) -> Mask:
         """Whether a pixel shows a model, shape [H, W]."""
         covered: NDArray[np.bool_] = self.model != BACKGROUND
         return covered

@@ -4,13 +4,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drapery.arrays import Matrices
 from drapery.errors import OptionError
 from drapery.render.vectors import cross, dots
 
 Vector = tuple[float, float, float]
-Matrix = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,7 @@ class Camera:
     far: float = 200.0
 
 
-def view_matrix(camera: Camera) -> Matrix:
+def view_matrix(camera: Camera) -> Matrices:
     """World to eye space, shape [4, 4]; not finite for a camera that spans no view."""
     rows = _axes(camera)
     matrix = np.eye(4)
@@ -42,7 +41,7 @@ def view_matrix(camera: Camera) -> Matrix:
     return matrix
 
 
-def camera_pose(camera: Camera) -> Matrix:
+def camera_pose(camera: Camera) -> Matrices:
     """Eye to world space, shape [4, 4]; the inverse of `view_matrix`."""
     matrix = np.eye(4)
     matrix[:3, :3] = _axes(camera).T
@@ -50,7 +49,7 @@ def camera_pose(camera: Camera) -> Matrix:
     return matrix
 
 
-def _axes(camera: Camera) -> Matrix:
+def _axes(camera: Camera) -> Matrices:
     """Unit vectors to the right, to the top and towards the viewer, shape [3, 3]."""
     back = np.subtract(camera.position, camera.target).astype(np.float64)
     back /= np.sqrt(dots(back, back))
@@ -59,7 +58,7 @@ def _axes(camera: Camera) -> Matrix:
     return np.stack([right, cross(back, right), back])
 
 
-def projection_matrix(camera: Camera, aspect: float) -> Matrix:
+def projection_matrix(camera: Camera, aspect: float) -> Matrices:
     """Eye space to OpenGL clip space (z in -w..w), shape [4, 4]; aspect is width / height."""
     near, far = camera.near, camera.far
     matrix = np.zeros((4, 4))
@@ -81,7 +80,7 @@ def projection_matrix(camera: Camera, aspect: float) -> Matrix:
     return matrix
 
 
-def clip_matrix(camera: Camera, size: tuple[int, int]) -> Matrix:
+def clip_matrix(camera: Camera, size: tuple[int, int]) -> Matrices:
     """World to clip space for a picture of this width and height, shape [4, 4].
 
     Its products are summed in a fixed order. Raises OptionError for a camera that spans no view.

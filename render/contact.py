@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from PIL import Image
 
+from drapery.arrays import Pixels
 from drapery.render.contact_images import (
     CHECKER_CELL,
     GAP,
@@ -18,7 +19,7 @@ from drapery.render.contact_images import (
     write_label,
     write_lines,
 )
-from drapery.render.frame import Frame, Pixels
+from drapery.render.frame import Frame
 
 
 def contact_sheet(pictures: Sequence[tuple[str, Pixels]], columns: int | None = None) -> Frame:

@@ -3,18 +3,15 @@
 Each function makes a model to add to a scene, or to put in the place of one.
 """
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from drapery.mesh import Array, Mesh, Triangles
+from drapery.arrays import Bytes, Floats, Pairs, Texels, Triangles, Vectors
+from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.lines import dot_model, line_model
-from drapery.render.scene import Material, Model, Texels, TextureLayer
+from drapery.render.scene import Material, Model, TextureLayer
 from drapery.render.vectors import dots
-
-Index = NDArray[np.integer[Any]]
 
 KIND_COLOURS = np.array(
     [(38, 70, 83, 255), (231, 111, 81, 255), (42, 157, 143, 255), (233, 196, 106, 255)], np.uint8
@@ -41,7 +38,12 @@ def edges_model(
 
 
 def springs_model(
-    positions: Array, pairs: Index, kinds: Index, camera: Camera, height: int, width: float = 1.5
+    positions: Vectors,
+    pairs: Pairs,
+    kinds: Bytes,
+    camera: Camera,
+    height: int,
+    width: float = 1.5,
 ) -> Model:
     """Springs as lines, in KIND_COLOURS by their kind.
 
@@ -53,7 +55,7 @@ def springs_model(
     return line_model(positions, pairs[order], colours, camera, height, width)
 
 
-def pins_model(positions: Array, inv_mass: Array, camera: Camera, height: int) -> Model:
+def pins_model(positions: Vectors, inv_mass: Floats, camera: Camera, height: int) -> Model:
     """A dot on each pinned particle: those whose inverse mass [N] is 0."""
     return dot_model(positions[inv_mass == 0], PIN_RED, camera, height, 7.0)
 
@@ -69,7 +71,7 @@ def normals_model(
     return line_model(points, segments, colour, camera, height, 1.0)
 
 
-def stretch_model(mesh: Mesh, stretch: Array, limit: float = 0.1) -> Model:
+def stretch_model(mesh: Mesh, stretch: Floats, limit: float = 0.1) -> Model:
     """The mesh coloured by a number at each vertex, in the colours of RAMP.
 
     stretch: shape [V]; -limit and less is the first colour, 0 the middle, limit the last.
@@ -80,7 +82,7 @@ def stretch_model(mesh: Mesh, stretch: Array, limit: float = 0.1) -> Model:
     return Model(shape, (Material((TextureLayer(_ramp()),)),))
 
 
-def spring_stretch(positions: Array, pairs: Index, lengths: Array) -> Array:
+def spring_stretch(positions: Vectors, pairs: Pairs, lengths: Floats) -> Floats:
     """The stretch of each spring, shape [S]: its length over its rest length, less 1.
 
     positions: [m], shape [N, 3]. pairs: the two particles of each spring, shape [S, 2]. lengths:
@@ -91,7 +93,7 @@ def spring_stretch(positions: Array, pairs: Index, lengths: Array) -> Array:
     return stretch
 
 
-def at_particles(values: Array, pairs: Index, count: int) -> Array:
+def at_particles(values: Floats, pairs: Pairs, count: int) -> Floats:
     """The value furthest from 0 among the springs at each particle, shape [count].
 
     values: one a spring, shape [S]. pairs: the two particles of each spring, shape [S, 2]. count:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Texels
 from drapery.errors import OptionError
-from drapery.render.scene import SurfaceDetail, Texels
+from drapery.render.scene import SurfaceDetail
 
 MAX_SIDE = 1024
 """The longest side of a tile [texels]."""

@@ -4,9 +4,9 @@ from collections.abc import Iterable
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import ImageColor
 
+from drapery.arrays import Texels
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.render.backends import DrawScene, backend as backend_named
@@ -62,7 +62,7 @@ def make_model(
     mesh: Mesh,
     *,
     colour: Colour = "white",
-    texture: NDArray[np.uint8] | None = None,
+    texture: Texels | None = None,
     alpha: Alpha = "opaque",
     lit: bool = True,
 ) -> Model:

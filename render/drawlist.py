@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Floats, Integers, Mask, Triangles, UVs, Vectors
 from drapery.errors import OptionError
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.light import Light
 from drapery.render.materials import BLEND, MaterialTables, make_material_tables
@@ -37,14 +38,14 @@ class Topology:
     material_tables: the materials, their layers and textures.
     """
 
-    uvs: Float32
+    uvs: UVs
     triangles: Triangles
-    triangle_material: NDArray[np.int32]
-    vertex_start: NDArray[np.int64]
+    triangle_material: Integers
+    vertex_start: Integers
     material_tables: MaterialTables
 
     @cached_property
-    def casting(self) -> NDArray[np.bool_]:
+    def casting(self) -> Mask:
         """Which triangles cast shadows, shape [T]: lit ones that do not blend."""
         tables = self.material_tables
         casting: NDArray[np.bool_] = tables.material_lit & (tables.material_alpha != BLEND)
@@ -56,14 +57,14 @@ class Topology:
         return self.triangles[self.casting]
 
     @cached_property
-    def lit_vertices(self) -> NDArray[np.bool_]:
+    def lit_vertices(self) -> Mask:
         """Which vertices belong to triangles that light falls on, shape [V]."""
         lit = np.zeros(len(self.uvs), np.bool_)
         lit[self.triangles[self.material_tables.material_lit[self.triangle_material]]] = True
         return lit
 
     @cached_property
-    def transmission(self) -> Float32:
+    def transmission(self) -> Floats:
         """The share of light that shines through the surface at each vertex, 0..1, shape [V]."""
         through = np.zeros(len(self.uvs), np.float32)
         shares = self.material_tables.material_transmission[self.triangle_material]
@@ -81,11 +82,11 @@ class DrawList:
     topology: triangles, UVs and materials.
     """
 
-    positions: Float32
-    normals: Float32
+    positions: Vectors
+    normals: Vectors
     topology: Topology
 
-    def brightness(self, light: Light) -> Array:
+    def brightness(self, light: Light) -> Floats:
         """The factor by which light multiplies the colour at each vertex, shape [V]."""
         lit = np.zeros(len(self.positions), np.bool_)
         for triangles, shines in self._by_light():

@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Texels
 from drapery.render.atlas import make_atlas
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.materials import CUTOUT, OPAQUE, MaterialTables
-from drapery.render.scene import Texels
 
 MAX_TEXELS = 1 << 20
 """The most texels of composited textures; larger ones are composited at every sample."""

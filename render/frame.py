@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery.render.pixels import Pixels
+from drapery.arrays import Pixels
 
 __all__ = ["Animation", "Frame", "Pixels"]
 

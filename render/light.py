@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.mesh import Array
+from drapery.arrays import Floats, Vectors
 from drapery.render.vectors import dots
 
 Vector = tuple[float, float, float]
@@ -29,13 +29,13 @@ class Light:
     tint: Vector = (1.0, 1.0, 1.0)
     shadows: bool = False
 
-    def unit_directions(self) -> NDArray[np.float64]:
+    def unit_directions(self) -> Vectors:
         """Towards each light, shape [L, 3]."""
         towards = np.array(self.directions, np.float64).reshape(-1, 3)
         unit: NDArray[np.float64] = towards / np.sqrt(dots(towards, towards))[:, None]
         return unit
 
-    def brightness(self, normals: Array) -> Array:
+    def brightness(self, normals: Vectors) -> Floats:
         """The factor in 0..1 for unit normals of shape [..., 3]; shape [...]."""
         total = np.full(normals.shape[:-1], self.ambient, normals.dtype)
         for unit in self.unit_directions():

@@ -1,14 +1,14 @@
 """Lines and dots as thin meshes that face the camera: any backend draws them, with depth."""
 
 import math
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from drapery.arrays import Pairs, Texels, Vectors
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
-from drapery.render.scene import Alpha, Material, Model, Texels, TextureLayer
+from drapery.render.scene import Alpha, Material, Model, TextureLayer
 from drapery.render.vectors import dots, unit
 
 NEARER = 0.004
@@ -16,8 +16,8 @@ NEARER = 0.004
 
 
 def line_model(
-    points: Array,
-    segments: NDArray[np.integer[Any]],
+    points: Vectors,
+    segments: Pairs,
     colours: ArrayLike,
     camera: Camera,
     height: int,
@@ -39,7 +39,7 @@ def line_model(
 
 
 def dot_model(
-    points: Array, colours: ArrayLike, camera: Camera, height: int, width: float = 5.0
+    points: Vectors, colours: ArrayLike, camera: Camera, height: int, width: float = 5.0
 ) -> Model:
     """Squares of one size in pixels at any distance, which face the camera.
 

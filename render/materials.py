@@ -6,11 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Bytes, Floats, Integers, Mask, Texels
 from drapery.errors import OptionError
 from drapery.render.atlas import Atlas, make_atlas
 from drapery.render.detail import DetailTables, make_detail_tables
 from drapery.render.identity_cache import IdentityCache
-from drapery.render.scene import Alpha, Material, Texels, TextureLayer
+from drapery.render.scene import Alpha, Material, TextureLayer
 
 OPAQUE, CUTOUT, BLEND = 0, 1, 2
 ALPHA_CODES: dict[Alpha, int] = {"opaque": OPAQUE, "cutout": CUTOUT, "blend": BLEND}
@@ -33,12 +34,12 @@ class MaterialTables:
     details: see `DetailTables`.
     """
 
-    material_layers: NDArray[np.int32]
-    material_alpha: NDArray[np.uint8]
-    material_lit: NDArray[np.bool_]
-    material_transmission: NDArray[np.float32]
-    layer_rects: NDArray[np.int32]
-    layer_tints: NDArray[np.uint8]
+    material_layers: Integers
+    material_alpha: Bytes
+    material_lit: Mask
+    material_transmission: Floats
+    layer_rects: Integers
+    layer_tints: Bytes
     atlas: Texels
     details: DetailTables
 

@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.mesh import Array, Mesh, Triangles
+from drapery.arrays import Texels, Triangles
+from drapery.mesh import Array, Mesh
 from drapery.render.flatten import lay_over
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.light import Light
-from drapery.render.scene import Material, Model, Scene, Texels, TextureLayer
+from drapery.render.scene import Material, Model, Scene, TextureLayer
 from drapery.render.vectors import dots, unit
 
 SLACK = 1e-9

@@ -6,12 +6,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Integers, Texels
 from drapery.mesh import Array, Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import GAME_LIGHT, Light
-
-Texels = NDArray[np.uint8]
-"""A texture: sRGB with straight alpha, shape [H, W, 4], top row first."""
 
 Alpha = Literal["opaque", "cutout", "blend"]
 
@@ -88,7 +86,7 @@ class Model:
 
     mesh: Mesh
     materials: tuple[Material, ...]
-    material_index: NDArray[np.int32] | None = None
+    material_index: Integers | None = None
     name: str = field(default="", kw_only=True)
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from drapery.arrays import Vectors
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.camera import Camera, Vector
@@ -46,7 +47,7 @@ def find_view(view: str | View) -> View:
     return VIEWS[view]
 
 
-def frame_view(view: str | View, points: Array, aspect: float, margin: float = 0.05) -> Camera:
+def frame_view(view: str | View, points: Vectors, aspect: float, margin: float = 0.05) -> Camera:
     """A camera in the direction of a view that shows all points.
 
     view: a View, or its name in VIEWS. points: [m], shape [..., 3]; for an animation those of all
@@ -56,7 +57,7 @@ def frame_view(view: str | View, points: Array, aspect: float, margin: float = 0
     return frame_points(find_view(view), points, aspect, margin)
 
 
-def turntable(view: View, points: Array, aspect: float, frames: int) -> list[Camera]:
+def turntable(view: View, points: Vectors, aspect: float, frames: int) -> list[Camera]:
     """One camera for each frame, once around points [m] of shape [..., 3], which all stay visible.
 
     The cameras turn about the upright axis through the middle of the points; the first looks in
@@ -93,7 +94,7 @@ def _turned(camera: Camera, axis: Array, degrees: float) -> Camera:
     )
 
 
-def frame_points(view: View, points: Array, aspect: float, margin: float = 0.05) -> Camera:
+def frame_points(view: View, points: Vectors, aspect: float, margin: float = 0.05) -> Camera:
     """A camera in the direction of a view that shows all points as large as the margin allows.
 
     points: [m], shape [..., 3]. aspect: width / height. margin: the free fraction at each side.

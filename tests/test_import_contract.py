@@ -14,7 +14,7 @@ from source_modules import FOLDERS, ROOT, modules
 
 FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
-    *("aot", "compile_beside", "jit_cache", "jit_calls", "jit_codegen", "jit_compiling"),
+    *("aot", "arrays", "compile_beside", "jit_cache", "jit_calls", "jit_codegen", "jit_compiling"),
     *("jit_objects", "jit_runtime", "kernel_sources"),
     *("lazy", "toml_text", "player_settings", "version"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
@@ -50,7 +50,8 @@ ALLOWED: dict[str, set[str]] = {
         "jit_objects",
         "kernel_sources",
     },
-    "mesh": {"errors"},
+    "arrays": set(),
+    "mesh": {"arrays", "errors"},
     "option": {"errors"},
     "settings": {"errors", "option"},
     "options": {"errors", "option", "settings"},
@@ -66,7 +67,7 @@ ALLOWED: dict[str, set[str]] = {
     "json_text": set(),
     "model_faults": set(),
     "mesh_headers": {"errors", "json_text", "picture_file"},
-    "mesh_file": {"errors", "mesh", "mesh_headers", "user_files"},
+    "mesh_file": {"arrays", "errors", "mesh", "mesh_headers", "user_files"},
     "assets": set(),
     "banner": {"assets"},
     "packs": {"banner"},

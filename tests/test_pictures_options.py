@@ -10,11 +10,11 @@ import pytest
 from PIL import Image
 
 from drapery import Banner, DraperyError, OptionError, draw
+from drapery.arrays import Pixels
 from drapery.banner.packs import open_packs
 from drapery.cloth import FABRICS, Drag, Fabric, SolverXPBD, Wind
 from drapery.mesh import Array
 from drapery.render.backends import backend
-from drapery.render.frame import Pixels
 from drapery.render.views import VIEWS
 from drapery.scenes import still, wind_of
 from drapery.settings import Settings

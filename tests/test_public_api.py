@@ -1,5 +1,6 @@
 """The public API: every change is announced, and every name is documented."""
 
+import pydoc
 from importlib import import_module
 
 from public_api import (
@@ -40,6 +41,18 @@ def test_only_the_newest_section_of_the_changelog_announces() -> None:
 def test_every_public_name_has_a_docstring() -> None:
     bare = [name for name, found in public_objects(load()) if not found.has_docstring]
     assert not bare, f"document: {', '.join(bare)}"
+
+
+def test_help_shows_arrays_by_the_names_of_their_types() -> None:
+    found = [
+        f"{package.__name__}.{name}: {line.strip()}"
+        for package in map(import_module, PACKAGES)
+        for name in package.__all__
+        if not isinstance(getattr(package, name), str)
+        for line in pydoc.plaintext.document(getattr(package, name), name).splitlines()
+        if "ndarray[" in line.lower()
+    ]
+    assert not found, "\n".join(["use a type of drapery.arrays:", *found])
 
 
 def test_every_public_package_is_in_the_reference_and_in_the_text_of_drapery() -> None:

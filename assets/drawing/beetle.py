@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from drapery.mesh import Array, Mesh, Triangles, vertex_normals
+from drapery.arrays import Triangles
+from drapery.mesh import Array, Mesh, vertex_normals
 from drapery.render.scene import Material, Model, TextureLayer
 from drapery.style.boxes import join
 

@@ -13,10 +13,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Texels
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
-from drapery.banner.packs.png import Texels
 from drapery.banner.packs.resampling import MAX_COMPOSITE, common_side, nearest_texels
 
 Tint = tuple[int, int, int]

@@ -20,9 +20,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Floats, Integers, Triangles
 from drapery.cloth.checks import check_number
 from drapery.errors import OptionError
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 
 MAX_RIGIDITY = 1e6
 """The greatest bending rigidity [N m]."""
@@ -46,10 +47,10 @@ class Bending:
     Raises OptionError for arrays of wrong shape and values out of range.
     """
 
-    particles: NDArray[np.int32]
-    weights: Array
-    stiffness: Array
-    rest: Array
+    particles: Integers
+    weights: Floats
+    stiffness: Floats
+    rest: Floats
     damping: float = 0.0
 
     def __post_init__(self) -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Vectors
 from drapery.cloth.bending import grid_bending, strip_bending
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import FLEXION, SHEAR, STRUCTURAL, Cloth
@@ -142,7 +143,7 @@ def spring_lengths(positions: Array, cloth: Cloth) -> Array:
     return lengths
 
 
-def max_stretch(positions: Array, cloth: Cloth) -> float:
+def max_stretch(positions: Vectors, cloth: Cloth) -> float:
     """The largest relative elongation of a structural spring; 0.05 is five per cent.
 
     positions: [m], shape [..., N, 3].

@@ -3,13 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drapery.arrays import Bytes, Floats, Pairs, Triangles, UVs, Vectors
 from drapery.cloth.bending import NO_BENDING, Bending
 from drapery.cloth.checks import check_number
 from drapery.cloth.fabric import MAX_DRAG
 from drapery.errors import OptionError
-from drapery.mesh import Array, Triangles
 
 STRUCTURAL = 0
 """The kind of springs between neighbours (Provot 1995, section 3)."""
@@ -42,14 +41,14 @@ class Cloth:
     Raises OptionError for arrays of wrong shape and values out of range.
     """
 
-    rest_positions: Array
-    inv_mass: Array
-    spring_pairs: NDArray[np.int32]
-    spring_length: Array
-    spring_stiffness: Array
-    spring_kind: NDArray[np.uint8]
+    rest_positions: Vectors
+    inv_mass: Floats
+    spring_pairs: Pairs
+    spring_length: Floats
+    spring_stiffness: Floats
+    spring_kind: Bytes
     triangles: Triangles
-    uvs: Array
+    uvs: UVs
     grid_shape: tuple[int, int] | None = None
     drag: float = 0.0
     bending: Bending = NO_BENDING

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from drapery.arrays import Vectors
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.forces import Force, lower_forces
 from drapery.cloth.lanes import from_lanes
@@ -24,7 +25,7 @@ WORK_ROWS = 18
 """The rows of scratch that a wind needs, see `kernels.blow`."""
 
 
-def accelerations(forces: Sequence[Force], cloth: Cloth, state: State) -> Array:
+def accelerations(forces: Sequence[Force], cloth: Cloth, state: State) -> Vectors:
     """The acceleration of each particle by all forces at the time of a state [m/s²], [B, N, 3].
 
     It is that of gravity, drag (with the drag of the cloth's fabric), winds and forces of your own;

@@ -10,6 +10,7 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
+from drapery.arrays import Vectors
 from drapery.cloth.checks import check_number, vector3
 from drapery.cloth.cloth import Cloth
 from drapery.cloth.fabric import MAX_DRAG
@@ -48,7 +49,7 @@ class Drag:
 class ForceField(Protocol):
     """A user-defined force: any object with this method, which is called once a step."""
 
-    def acceleration(self, cloth: Cloth, state: State) -> Array:
+    def acceleration(self, cloth: Cloth, state: State) -> Vectors:
         """Acceleration of each particle [m/s²], shape [B, N, 3] or [N, 3], all finite."""
 
 

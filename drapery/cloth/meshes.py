@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Triangles, UVs, Vectors
 from drapery.cloth.bending import triangle_bending
 from drapery.cloth.builders import (
     DEFAULT,
@@ -29,10 +30,10 @@ WELD = 1e-6
 
 
 def from_triangles(
-    positions: Array,
-    triangles: NDArray[np.integer],
+    positions: Vectors,
+    triangles: Triangles,
     *,
-    uvs: Array | None = None,
+    uvs: UVs | None = None,
     pins: Pins = "none",
     fabric: Fabric = DEFAULT,
 ) -> Cloth:

@@ -7,12 +7,13 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Integers, Mask, Matrices, Vectors
 from drapery.errors import OptionError, counted
 from drapery.mesh import Array
 
 PinName = Literal["none", "top", "corners", "three-corners", "four-corners"]
-Predicate = Callable[[Array], NDArray[np.bool_]]
-Pins = PinName | Predicate | Sequence[int] | NDArray[np.integer]
+Predicate = Callable[[Vectors], Mask]
+Pins = PinName | Predicate | Sequence[int] | Integers
 """Which particles are held: the name of some of a grid's, the particles' numbers, or a function
 from the rest positions [m], shape [N, 3], to bools, shape [N]."""
 
@@ -24,7 +25,7 @@ class PinPath(Protocol):
     order of the particles' numbers.
     """
 
-    def __call__(self, time: float, /) -> Array: ...
+    def __call__(self, time: float, /) -> Vectors: ...
 
 
 class PosePath(Protocol):
@@ -33,7 +34,7 @@ class PosePath(Protocol):
     It takes a time [s] and returns a rotation, shape [3, 3], and a translation [m], shape [3].
     """
 
-    def __call__(self, time: float, /) -> tuple[Array, Array]: ...
+    def __call__(self, time: float, /) -> tuple[Matrices, Vectors]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +112,7 @@ def _named(name: str, rest: Array, grid_shape: tuple[int, int] | None) -> NDArra
     return np.array([0, columns - 1, (rows - 1) * columns, rows * columns - 1], np.int64)[:count]
 
 
-def carried(cloth_positions: Array, pinned: NDArray[np.integer], pose: PosePath) -> PinPath:
+def carried(cloth_positions: Vectors, pinned: Integers, pose: PosePath) -> PinPath:
     """A path of the pins [P] of positions [N, 3] that move with a rigid body.
 
     pose: rotation [3, 3] and translation [m], [3], of the body at a time [s]; the identity and 0

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Integers
 from drapery.cloth.bending import Bending
 from drapery.cloth.cloth import Cloth
 from drapery.errors import OptionError, counted
@@ -19,9 +20,9 @@ class Seam(NamedTuple):
     """
 
     first: int
-    first_particles: Sequence[int] | NDArray[np.integer]
+    first_particles: Sequence[int] | Integers
     second: int
-    second_particles: Sequence[int] | NDArray[np.integer]
+    second_particles: Sequence[int] | Integers
 
 
 def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import DTypeLike
 
+from drapery.arrays import Vectors
 from drapery.cloth.checks import check_count
 from drapery.cloth.cloth import Cloth
 from drapery.errors import OptionError, shown
-from drapery.mesh import Array
 
 MAX_CLOTHS = 100_000_000
 
@@ -24,8 +24,8 @@ class State:
         all steps that led here; 0 where all springs were held. See `drapery.cloth.strain`.
     """
 
-    positions: Array
-    velocities: Array
+    positions: Vectors
+    velocities: Vectors
     time: float = 0.0
     strain: float = 0.0
 

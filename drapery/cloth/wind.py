@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Floats, Vectors
 from drapery.cloth.checks import check_count, check_number, vector3
 from drapery.errors import OptionError, counted, shown
 from drapery.mesh import Array
@@ -63,8 +64,8 @@ class Wind:
     ripples: float = 0.0
     ripple_size: float = 0.5
     vortices: float = 0.0
-    phases: Array | float = 0.0
-    origins: Array | tuple[float, float, float] = (0.0, 0.0, 0.0)
+    phases: Floats | float = 0.0
+    origins: Vectors | tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
         vector3("wind velocity", self.velocity, MAX_SPEED, "m/s")

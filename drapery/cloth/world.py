@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Integers, Vectors
 from drapery.cloth.bending import grid_rigidity
 from drapery.cloth.builders import grid
 from drapery.cloth.checks import check_count, check_number
@@ -32,10 +33,10 @@ MAX_DISTANCE = 1e9
 HYSTERESIS = 1.1
 """A cloth returns to a finer level only when it is nearer than the limit by this factor."""
 
-ForcesAt = Callable[[Array], Sequence[Force]]
+ForcesAt = Callable[[Vectors], Sequence[Force]]
 """The forces on cloths at places [B, 3]; a wind takes the places as its origins."""
 
-StiffMotion = Callable[[Cloth, Array, float], Array]
+StiffMotion = Callable[[Cloth, Vectors, float], Vectors]
 """Positions [B, N, 3] of cloths at places [B, 3] at a time [s], without simulation."""
 
 
@@ -70,10 +71,10 @@ class WorldView(NamedTuple):
     """
 
     cloth: Cloth
-    ids: NDArray[np.int64]
-    places: Array
-    positions: Array
-    levels: NDArray[np.int8]
+    ids: Integers
+    places: Vectors
+    positions: Vectors
+    levels: Integers
 
 
 @dataclass
@@ -137,7 +138,7 @@ class World:
     def __post_init__(self) -> None:
         check_step(self.dt, 1)
 
-    def add(self, cloth: Cloth, places: Array) -> NDArray[np.int64]:
+    def add(self, cloth: Cloth, places: Vectors) -> Integers:
         """Add cloths of one topology at places [m], [B, 3]; returns their ids, [B].
 
         An id never changes and is never used again. Use the same Cloth object for all cloths of a
@@ -151,7 +152,7 @@ class World:
         self._batches[id(cloth)].extend(ids, places)
         return ids
 
-    def remove(self, ids: Sequence[int] | NDArray[np.int64]) -> None:
+    def remove(self, ids: Sequence[int] | Integers) -> None:
         """Remove cloths, and a topology of which none is left. Raises OptionError for an unknown
         id."""
         wanted = np.asarray(ids, np.int64).reshape(-1)
@@ -163,7 +164,7 @@ class World:
         kept = {key: batch for key, batch in self._batches.items() if batch.ids.size}
         self._batches = kept
 
-    def ids(self) -> NDArray[np.int64]:
+    def ids(self) -> Integers:
         """The ids of all cloths, in the order of `shown`."""
         return np.concatenate([np.empty(0, np.int64), *(b.ids for b in self._batches.values())])
 
@@ -174,7 +175,7 @@ class World:
             faded = batch.positions + weight * batch.offsets
             yield WorldView(batch.cloth, batch.ids, batch.places, faded, batch.levels)
 
-    def step(self, eye: Array) -> None:
+    def step(self, eye: Vectors) -> None:
         """Advance all cloths by dt. eye: the viewer's position [m], [3]. Raises OptionError."""
         eye = _points("eye", eye).reshape(3)
         batches = list(self._batches.values())

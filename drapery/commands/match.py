@@ -12,8 +12,9 @@ from drapery.commands.options import is_given
 from drapery.errors import counted
 
 if TYPE_CHECKING:
+    from drapery.arrays import Texels
     from drapery.match import Match, Matcher, Mural, PictureFace
-    from drapery.packs import Packs, Texels
+    from drapery.packs import Packs
 
 MURAL_EFFORT = 8
 """The effort for each banner of a mural, unless one is given."""

@@ -9,7 +9,7 @@ slope detector". The verdicts are those of the npm package pixelmatch, version 7
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.render import Pixels
+from drapery.arrays import Pixels
 
 Places = NDArray[np.intp]
 """Places of pixels in a picture whose rows are joined, shape [n]."""

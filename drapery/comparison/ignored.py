@@ -3,15 +3,15 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Mask, Pixels
 from drapery.comparison.limits import Box
 from drapery.errors import OptionError
-from drapery.render import Pixels
 
 _PAINTED = 128
 """From this alpha and this colour on a pixel of a mask is painted."""
 
 
-def painted(mask: Pixels) -> NDArray[np.bool_]:
+def painted(mask: Pixels) -> Mask:
     """Which pixels a mask picture leaves out of a comparison, shape [H, W].
 
     Those that are opaque and not dark: white on black, or any bright colour on nothing.
@@ -21,8 +21,8 @@ def painted(mask: Pixels) -> NDArray[np.bool_]:
 
 
 def ignored_pixels(
-    size: tuple[int, int], boxes: tuple[Box, ...], mask: NDArray[np.bool_] | None = None
-) -> NDArray[np.bool_] | None:
+    size: tuple[int, int], boxes: tuple[Box, ...], mask: Mask | None = None
+) -> Mask | None:
     """Which pixels do not count, shape [H, W]; None if all count.
 
     size: height and width [px]. mask: see `painted`. Raises OptionError for a mask of another

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Channels
 from drapery.comparison.difference import Difference, box_around
 from drapery.comparison.ignored import ignored_pixels
 from drapery.comparison.metrics import measure
@@ -14,7 +15,6 @@ from drapery.comparison.picture import Picture, times
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.comparison.words import named_frames
 from drapery.errors import counted
-from drapery.picture_pixels import Channels
 
 
 def measure_pictures(

@@ -7,13 +7,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Bytes, Channels, Mask, Pixels
 from drapery.comparison.difference import Difference
 from drapery.comparison.limits import Box
 from drapery.comparison.perceptual import perceptual_measures
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.errors import OptionError
-from drapery.picture_pixels import Channels
-from drapery.render import Pixels
 
 Places = NDArray[np.intp]
 
@@ -42,7 +41,7 @@ def measure(
     actual: Channels,
     tolerance: Tolerance = EXACT,
     *,
-    ignored: NDArray[np.bool_] | None = None,
+    ignored: Mask | None = None,
     perceptual: bool = False,
 ) -> Difference:
     """Measure a picture, sRGB with straight alpha, shape [H, W, 4], against the expected one.
@@ -64,8 +63,8 @@ def difference_map(
     actual: Channels,
     tolerance: Tolerance = EXACT,
     *,
-    ignored: NDArray[np.bool_] | None = None,
-) -> NDArray[np.uint8]:
+    ignored: Mask | None = None,
+) -> Bytes:
     """What each pixel is: SAME, WITHIN, SMOOTHED or BEYOND, shape [H, W]; see `measure`."""
     old, new = _alike(expected, actual)
     kinds = np.zeros(old.shape[:2], np.uint8)

@@ -3,6 +3,7 @@
 import numpy as np
 from PIL import Image
 
+from drapery.arrays import Channels, Pixels
 from drapery.comparison.loops import left_out, padded
 from drapery.comparison.metrics import BEYOND, SAME, difference_map, eight_bits, errors
 from drapery.comparison.painting import (
@@ -13,8 +14,7 @@ from drapery.comparison.painting import (
     shown_scale,
 )
 from drapery.comparison.tolerance import EXACT, Tolerance
-from drapery.picture_pixels import Channels
-from drapery.render import Frame, Pixels, contact_sheet
+from drapery.render import Frame, contact_sheet
 from drapery.render.contact_images import checkered
 from drapery.render.resize import enlarge
 

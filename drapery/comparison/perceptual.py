@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Pixels
 from drapery.comparison.colours import ciede2000
 from drapery.comparison.flip import REACH, flip_errors
-from drapery.render import Pixels
 
 Area = tuple[slice, slice]
 """Rows and columns of a picture."""

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageSequence
 
+from drapery.arrays import Channels
 from drapery.comparison.files import MAX_PIXELS, opened, picture_bytes
 from drapery.errors import OptionError, counted
 from drapery.file_formats import LOOP_READERS, READERS
-from drapery.picture_pixels import Channels, pixels_of, sixteen_bit_pixels
+from drapery.picture_pixels import pixels_of, sixteen_bit_pixels
 from drapery.render import Animation, Frame
 
 

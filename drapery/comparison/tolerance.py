@@ -8,8 +8,7 @@ from drapery.comparison.limits import LIMIT_OPTIONS, Box, is_box
 from drapery.errors import OptionError
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from drapery.arrays import Mask
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +33,7 @@ class Tolerance:
     colour: float | None = None
     antialiasing: bool = True
     ignore: tuple[Box, ...] = ()
-    mask: "NDArray[np.bool_] | None" = None
+    mask: "Mask | None" = None
     flip: float | None = None
     ssim: float | None = None
     ciede2000: float | None = None

@@ -6,6 +6,7 @@ from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 
+from drapery.arrays import Integers, Vectors
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
 from drapery.cloth import Cloth, Fabric, Seam, sew
@@ -40,9 +41,9 @@ class SewnCloth:
     """
 
     cloth: Cloth
-    start: Array
+    start: Vectors
     pieces: tuple[Piece, ...]
-    drawn: tuple[Particles, ...]
+    drawn: tuple[Integers, ...]
     fabric: Fabric
     bones: tuple[str, ...]
     solid: tuple[str, ...] | None
@@ -78,7 +79,7 @@ class SewnCloth:
 
         return PinTable(at)
 
-    def models(self, positions: Array) -> list[ClothModel]:
+    def models(self, positions: Vectors) -> list[ClothModel]:
         """Its pieces, thick. positions: of the particles [m], shape [N, 3]."""
         normals = vertex_normals(positions, self.cloth.triangles)
         found = []

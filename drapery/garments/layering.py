@@ -11,9 +11,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Triangles
 from drapery.cloth import Cloth
 from drapery.garments.assembly import SewnCloth
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 
 ROUNDS = 16
 """The most rounds in which particles are moved outwards."""

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.banner.names import shown
 from drapery.banner.sprites import WHITE, Tint
 from drapery.cloth import TriangleMesh, mesh_collider, rotation_about
@@ -14,7 +15,7 @@ from drapery.garments.model import MAX_LENGTH, GarmentMesh
 from drapery.mesh import Array, make_mesh
 from drapery.mesh_file import FilePart, joined, read_mesh_file
 from drapery.picture_pixels import pixels_of
-from drapery.render.scene import Material, Model, Texels, TextureLayer
+from drapery.render.scene import Material, Model, TextureLayer
 
 MAX_FILE = 8 << 20
 """The largest 3-D file of a garment [bytes]."""

@@ -7,6 +7,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Triangles
 from drapery.cloth import Cloth, disc, from_triangles, grid, rotation_about
 from drapery.elementary import power, sine_of_turns
 from drapery.errors import OptionError
@@ -21,7 +22,7 @@ from drapery.garments.model import (
     RingPiece,
     StripPiece,
 )
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 
 Particles = NDArray[np.intp]
 

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.banner.dyes import DYES
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
-from drapery.banner.packs.png import Texels
 from drapery.banner.packs.png_file import read_png_file
 from drapery.banner.sprites import WHITE, Tint, tint
 from drapery.garments.model import Area, ClothTexture

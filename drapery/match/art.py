@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Texels
 from drapery.banner import (
     DYE_NAMES,
     DYES,
@@ -15,7 +16,7 @@ from drapery.banner import (
     Banner,
     Layer,
 )
-from drapery.packs import Packs, Texels
+from drapery.packs import Packs
 
 Levels = NDArray[np.int32]
 """8-bit channels in wider integers."""

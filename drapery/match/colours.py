@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float32]
 Whole = NDArray[np.int32]
@@ -35,7 +35,7 @@ _TO_LAB = (
 )
 
 
-def oklab(rgb: NDArray[np.generic]) -> Floats:
+def oklab(rgb: ArrayLike) -> Floats:
     """The OKLab of 8-bit sRGB colours [..., 3], also of values between whole ones."""
     # In double precision, so that the last bits of a machine's powers are rounded off.
     share = np.asarray(rgb, np.float64) / 255

@@ -13,6 +13,7 @@ from importlib.resources import files
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Pixels
 from drapery.errors import OptionError
 from drapery.match.art import HEIGHT, WIDTH
 from drapery.match.smooth import Reals, least_squares, products, row_sums
@@ -246,7 +247,7 @@ def texel_shifts() -> Reals:
     return bend_shifts(*_grid(1, 0.0)).reshape(bend_count(), 2, -1)
 
 
-def find_corners(picture: NDArray[np.uint8]) -> tuple[Corner, ...]:
+def find_corners(picture: Pixels) -> tuple[Corner, ...]:
     """The corners of a flag before a background of one colour: the edges of what is largest there.
 
     picture: [H, W, 3]. The flag must stand upright, and wholly in the picture.
@@ -341,7 +342,7 @@ def _meeting(side: tuple[float, float], end: tuple[float, float]) -> Corner:
     return a + b * y, y
 
 
-def flat_face(picture: NDArray[np.uint8], corners: Sequence[Corner]) -> NDArray[np.uint8]:
+def flat_face(picture: Pixels, corners: Sequence[Corner]) -> Pixels:
     """The flag of a photo [H, W, 3] set upright, uint8 [40, 20, 3].
 
     corners: upper left, upper right, lower right, lower left. Raises OptionError.

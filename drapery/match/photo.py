@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drapery.arrays import Pixels
 from drapery.banner import LOOM_LAYERS, MAX_LAYERS
 from drapery.match.art import HEIGHT, WIDTH, Stack, read_art
 from drapery.match.colours import MEASURED, PERCEIVED, UNIT, Metric, distances, oklab
@@ -89,7 +89,7 @@ _LITTLE = 1.0
 
 
 def match_photo(
-    picture: NDArray[np.uint8],
+    picture: Pixels,
     corners: Sequence[Corner] | None = None,
     *,
     layers: int = LOOM_LAYERS,

@@ -5,14 +5,15 @@ from pathlib import Path
 from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from PIL import Image, ImageOps
 
+from drapery.arrays import Floats, Pixels, Texels
 from drapery.banner import DYES
 from drapery.errors import OptionError, PackError
 from drapery.match.art import HEIGHT, WIDTH
 from drapery.match.colours import UNIT, distances, oklab
-from drapery.packs import Texels, read_png
+from drapery.packs import read_png
 from drapery.picture_file import opened_picture
 from drapery.picture_pixels import pixels_of
 from drapery.user_files import read_user_file
@@ -55,8 +56,8 @@ class PictureFace:
     is shown.
     """
 
-    face: NDArray[np.uint8]
-    weights: NDArray[np.float64]
+    face: Pixels
+    weights: Floats
 
 
 def read_pixels(path: str | Path) -> Texels:
@@ -147,7 +148,7 @@ def fit_mural(
     ]
 
 
-def nearest_dye(rgb: NDArray[np.generic]) -> str:
+def nearest_dye(rgb: ArrayLike) -> str:
     """The name of the dye that looks most like an sRGB colour [3]."""
     dyes = oklab(np.array([dye.rgb for dye in DYES.values()]))
     return list(DYES)[int(distances(dyes, oklab(rgb)).argmin())]

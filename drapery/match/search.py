@@ -4,8 +4,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from drapery.arrays import Pixels
 from drapery.banner import LOOM_LAYERS, MAX_LAYERS, Banner
 from drapery.errors import OptionError
 from drapery.match.art import HEIGHT, SIZE, WIDTH, FaceArt, Stack, read_art
@@ -67,10 +68,10 @@ class Matcher:
 
     def match(
         self,
-        face: NDArray[np.uint8],
+        face: Pixels,
         *,
         layers: int = LOOM_LAYERS,
-        weights: NDArray[np.generic] | None = None,
+        weights: ArrayLike | None = None,
         alternatives: int = 5,
         effort: int = EFFORT,
     ) -> list[Match]:
@@ -84,10 +85,10 @@ class Matcher:
 
     def iter_matches(
         self,
-        face: NDArray[np.uint8],
+        face: Pixels,
         *,
         layers: int = LOOM_LAYERS,
-        weights: NDArray[np.generic] | None = None,
+        weights: ArrayLike | None = None,
         alternatives: int = 5,
         effort: int = EFFORT,
     ) -> Iterator[MatchProgress]:
@@ -130,12 +131,12 @@ class Matcher:
 
 
 def match(
-    face: NDArray[np.uint8],
+    face: Pixels,
     *,
     layers: int = LOOM_LAYERS,
     packs: PackLike | Sequence[PackLike] = (),
     format: int | None = None,
-    weights: NDArray[np.generic] | None = None,
+    weights: ArrayLike | None = None,
     alternatives: int = 5,
     effort: int = EFFORT,
 ) -> list[Match]:
@@ -257,7 +258,7 @@ def _checked_face(face: NDArray[np.uint8]) -> NDArray[np.int32]:
     return array.reshape(SIZE).astype(np.int32)
 
 
-def _checked_weights(weights: NDArray[np.generic] | None) -> NDArray[np.int64]:
+def _checked_weights(weights: ArrayLike | None) -> NDArray[np.int64]:
     if weights is None:
         return np.ones(HEIGHT * WIDTH, np.int64)
     array = np.asarray(weights, np.float64)

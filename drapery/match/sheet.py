@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drapery.arrays import Pixels
 from drapery.banner.packs import Packs
 from drapery.match.search import Match
 from drapery.pictures import face_pixels
@@ -15,7 +15,7 @@ SCALE = 8
 
 
 def matches_sheet(
-    face: NDArray[np.uint8], matches: Sequence[Match], packs: Packs, *, scale: int = SCALE
+    face: Pixels, matches: Sequence[Match], packs: Packs, *, scale: int = SCALE
 ) -> PictureSheet:
     """A face, uint8 [40, 20, 3], and beside it the banners that were found for it.
 

@@ -13,6 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from drapery.arrays import Vectors
 from drapery.cloth import (
     FABRICS,
     Box,
@@ -174,7 +175,7 @@ class StagedBody:
         self,
         body: Body,
         settings: Settings,
-        cover: Callable[[Shell, Array, float], Mesh] = thicken,
+        cover: Callable[[Shell, Vectors, float], Mesh] = thicken,
     ) -> None:
         self.body = body
         self.staging = Staging(settings, body.ground, body.light, body.camera)
@@ -185,7 +186,7 @@ class StagedBody:
         self.times = cells_per_cell(settings.drawn_size, (rows, columns)) if curved else 1
         self._cover = cover
 
-    def soft(self, sheets: Sequence[Array]) -> list[Mesh]:
+    def soft(self, sheets: Sequence[Vectors]) -> list[Mesh]:
         """The stiff parts, then each panel as cloth: thick and in its place.
 
         sheets: each panel's particles in its own frame [m], shape [N, 3].
@@ -218,7 +219,7 @@ class StagedBody:
             return material
         return with_finish(material, settings.fabric, piece.shell.uv_mapping, piece.size)
 
-    def moved(self, motions: Sequence[Array]) -> list[Array]:
+    def moved(self, motions: Sequence[Vectors]) -> list[Vectors]:
         """The motion of each panel after the style's steps. motions: [m], each [F, N, 3]."""
         style = self.staging.style
         if not style.has("motion"):
@@ -228,7 +229,7 @@ class StagedBody:
 
     def record(
         self, at: Schedule, on_moment: Callable[[int, int], object] | None = None
-    ) -> Sequence[Array]:
+    ) -> Sequence[Vectors]:
         """Where the cloth of each panel is at the moments of a schedule [m], each [F, N, 3].
 
         None where the settings have the game's own stiff pose.
@@ -245,7 +246,7 @@ class StagedBody:
             return _cached(specs, settings.only("motion", "wind"), at)
         return record([drape_of(spec, settings) for spec in specs], at, on_moment=on_moment)
 
-    def scenes(self, motions: Sequence[Array], at: Schedule) -> Iterator[Scene]:
+    def scenes(self, motions: Sequence[Vectors], at: Schedule) -> Iterator[Scene]:
         """The scene of each picture of a schedule.
 
         A loop of what does not move is shown from all around.
@@ -313,7 +314,7 @@ class LiveBody(StagedBody):
         body: Body,
         settings: Settings,
         cloths: Sequence[MovingCloth] | None = None,
-        cover: Callable[[Shell, Array, float], Mesh] = thicken,
+        cover: Callable[[Shell, Vectors, float], Mesh] = thicken,
     ) -> None:
         super().__init__(body, settings, cover)
         self.times = 1  # it is shown at the display's rate

@@ -11,6 +11,7 @@ from itertools import product
 
 import numpy as np
 
+from drapery.arrays import Vectors
 from drapery.banner.packs import Packs
 from drapery.cloth import (
     Box,
@@ -199,7 +200,7 @@ class Dressed:
 
     def record(
         self, at: Schedule, on_moment: Callable[[int, int], object] | None = None
-    ) -> Sequence[Array]:
+    ) -> Sequence[Vectors]:
         """Where each cloth is at the moments of a schedule [m], each [F, N, 3].
 
         on_moment: see `recording.record`.
@@ -226,7 +227,7 @@ class Dressed:
         apart = sewn.thickness if collisions == "all" else None
         return Collisions(self.colliders(sewn), sewn.distance, order=3, apart=apart)
 
-    def scenes(self, motions: Sequence[Array], at: Schedule) -> Iterator[Scene]:
+    def scenes(self, motions: Sequence[Vectors], at: Schedule) -> Iterator[Scene]:
         """The scene of each picture of a schedule; the figure of a loop is as it is after settling.
 
         motions: where each cloth is in them [m], each [F, N, 3].

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from drapery.render import Frame, Pixels, Scene
+from drapery.arrays import Pixels
+from drapery.render import Frame, Scene
 
 INK, PAPER = (255, 255, 255), (24, 26, 34)
 """Colours of the labels."""

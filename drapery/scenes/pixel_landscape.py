@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drapery.render import Pixels
+from drapery.arrays import Pixels
 from drapery.scenes.hero_run import DISTANCE
 
 SKY, HILL, GRASS, EARTH = (146, 192, 232), (122, 172, 206), (104, 162, 84), (120, 86, 62)

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drapery.arrays import Vectors
 from drapery.banner.design import MAX_LAYERS
 from drapery.cloth import Force, MovingCloth, Wind, strain
 from drapery.cloth.contact import lanes_contact
@@ -73,7 +73,7 @@ class LivePanel:
 
     header: Mapping[str, Any]
     calls: Mapping[str, LiveKernel]
-    arrays: Mapping[str, NDArray[Any]]
+    arrays: Mapping[str, np.ndarray]
     functions: Mapping[str, tuple[Callable[..., Any], tuple[Any, ...]]]
 
 
@@ -94,7 +94,7 @@ class PlayedCloth:
     wind: Wind
     shell: Shell
     thickness: float
-    place: Array
+    place: Vectors
     finer: Shell | None = None
     lee: tuple[float, float, float] = (1.0, 1.0, 1.0)
     motion: LiveMotion = STILL

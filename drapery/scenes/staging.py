@@ -4,7 +4,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from drapery.mesh import Array, Mesh
+from drapery.arrays import Vectors
+from drapery.mesh import Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import GAME_LIGHT, STUDIO_LIGHT, UNLIT, Light, lit_at
 from drapery.render.scene import Model, Scene
@@ -52,14 +53,14 @@ class Staging:
         """Width over height of the picture."""
         return self.settings.size[0] / self.settings.size[1]
 
-    def camera(self, points: Sequence[Array], aspect: float) -> Camera:
+    def camera(self, points: Sequence[Vectors], aspect: float) -> Camera:
         """The subject's own camera, or one that frames points [m], each [..., 3], in the view."""
         if self.own_camera is not None:
             return self.own_camera
         return frame_view(self.settings.view, self.framed(points), aspect)
 
     def cameras(
-        self, points: Sequence[Array], aspect: float, count: int, *, around: bool = False
+        self, points: Sequence[Vectors], aspect: float, count: int, *, around: bool = False
     ) -> list[Camera]:
         """The camera of each of `count` moments: the same one, or once around points [m].
 
@@ -70,7 +71,7 @@ class Staging:
             return turntable(view, self.framed(points), aspect, count)
         return [self.camera(points, aspect)] * count
 
-    def framed(self, points: Sequence[Array]) -> Array:
+    def framed(self, points: Sequence[Vectors]) -> Vectors:
         """Points of the subject [m] with those of the block below and of the shadow, shape [N, 3].
 
         The block counts down to SHOWN_GROUND. A wall does not: it fills the picture.
@@ -107,7 +108,7 @@ class Staging:
         self,
         meshes: Sequence[Sequence[Mesh]],
         models: Iterable[Sequence[Model]],
-        framed: Sequence[Array] = (),
+        framed: Sequence[Vectors] = (),
         *,
         around: bool = False,
     ) -> Iterator[Scene]:

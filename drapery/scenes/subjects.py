@@ -7,9 +7,9 @@ scenes = stage(subject, Schedule.at([0.0, 0.5, 1.0], subject.step))
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Protocol
 
+from drapery.arrays import Vectors
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
-from drapery.mesh import Array
 from drapery.render.scene import Scene
 from drapery.scenes.bodies import StagedBody
 from drapery.scenes.recording import Schedule
@@ -36,13 +36,13 @@ class StagedSubject(Protocol):
 
     def record(
         self, at: Schedule, on_moment: Callable[[int, int], object] | None = None
-    ) -> Sequence[Array]:
+    ) -> Sequence[Vectors]:
         """Where each of its cloths is at the moments of a schedule [m], each [F, N, 3].
 
         on_moment: see `recording.record`. Raises OptionError.
         """
 
-    def scenes(self, motions: Sequence[Array], at: Schedule) -> Iterator[Scene]:
+    def scenes(self, motions: Sequence[Vectors], at: Schedule) -> Iterator[Scene]:
         """The scene of each picture of a schedule.
 
         motions: where each cloth is in them [m], each [F, N, 3]. Raises OptionError or PackError.

@@ -5,6 +5,7 @@ from typing import Literal
 
 import numpy as np
 
+from drapery.arrays import Pixels
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYES
 from drapery.banner.loom import loom_steps
@@ -12,7 +13,6 @@ from drapery.banner.packs import Packs
 from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
 from drapery.errors import OptionError, PackError, counted
 from drapery.pictures import face_pixels
-from drapery.render import Pixels
 from drapery.sheets.sheet import PictureSheet, SheetCell
 
 MAX_FACES = 2000

@@ -4,10 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from drapery.arrays import Pixels
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.pictures import draw, face_pixels
-from drapery.render import Frame, Pixels
+from drapery.render import Frame
 from drapery.settings import OPTIONS, Settings
 
 GAP = 2

@@ -2,8 +2,9 @@
 
 from collections.abc import Sequence
 
+from drapery.arrays import Pixels
 from drapery.comparison.report import data_address
-from drapery.render import Frame, Pixels
+from drapery.render import Frame
 
 _PAGE = """<!doctype html>
 <html lang="en">

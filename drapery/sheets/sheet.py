@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from drapery.arrays import Pixels
 from drapery.file_formats import format_of
-from drapery.render import Frame, Pixels, contact_sheet
+from drapery.render import Frame, contact_sheet
 from drapery.render.contact import contact_table
 
 

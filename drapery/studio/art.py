@@ -9,6 +9,7 @@ from zlib import crc32
 import numpy as np
 
 from drapery import Banner, Layer, OptionError, Settings
+from drapery.arrays import Texels
 from drapery.banner import (
     FLAG_REGIONS,
     SHIELD_REGIONS,
@@ -17,7 +18,7 @@ from drapery.banner import (
     shield_layers,
     write_banner,
 )
-from drapery.packs import Packs, Texels, read_png
+from drapery.packs import Packs, read_png
 from drapery.render import draw_scene, png_bytes
 from drapery.scenes import still
 from drapery.studio.document import Document

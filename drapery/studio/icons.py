@@ -7,9 +7,10 @@ from importlib.resources import files
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.banner import DYES
 from drapery.errors import PackError
-from drapery.packs import Packs, Texels
+from drapery.packs import Packs
 from drapery.render import png_bytes
 
 _COLOURS = {

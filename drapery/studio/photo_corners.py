@@ -8,7 +8,7 @@ from typing import Any
 from nicegui import ui
 from nicegui.element import Element
 
-from drapery.packs import Texels
+from drapery.arrays import Texels
 from drapery.render import webp_bytes
 from drapery.studio.widgets import KeptElements, set_props
 

@@ -5,7 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from drapery.mesh import Array, Mesh
+from drapery.arrays import Vectors
+from drapery.mesh import Mesh
 from drapery.render.camera import Camera
 from drapery.render.light import GAME_LIGHT, Light
 from drapery.style.piece import MaterialAt, Piece
@@ -51,7 +52,7 @@ class Panel:
     """
 
     piece: Piece
-    origin: Array
+    origin: Vectors
     pins: Literal["top", "corners"]
     board: Callable[[float], Mesh]
     sway: float | None

@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from drapery.arrays import Vectors
 from drapery.jit import entry_point, kernel
-from drapery.mesh import Array, Mesh
+from drapery.mesh import Mesh
 from drapery.render.workers import run_parts, worker_count
 from drapery.style.extrusion import THINNEST, Shell
 
 
-def cover_crowd(shell: Shell, positions: Array, thickness: float) -> Mesh:
+def cover_crowd(shell: Shell, positions: Vectors, thickness: float) -> Mesh:
     """Shells around thin sheets, along the averaged normals of their faces.
 
     positions: [m], shape [B, N, 3], of single or double precision, which the shells have too.

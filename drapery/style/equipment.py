@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.banner.packs.equipment import MATERIALS, armor_places, needed, trim_texels
-from drapery.banner.packs.png import Texels
 from drapery.banner.packs.resampling import nearest_texels
 from drapery.banner.sprites import tint
 from drapery.errors import OptionError, shown

@@ -12,14 +12,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.mesh import Array, Mesh, Triangles, faces_around, normals_around
+from drapery.arrays import Integers, Pairs, Triangles, UVs, Vectors
+from drapery.mesh import Array, Mesh, faces_around, normals_around
 from drapery.style.uv_mapping import SHEET_MAPPING, UVMapping
 
 THINNEST = 2e-4
 """The least distance between the two sheets [m]: from each side the nearer one must be seen."""
 
 
-def boundary_edges(triangles: Triangles) -> NDArray[np.int32]:
+def boundary_edges(triangles: Triangles) -> Pairs:
     """The edges of only one triangle, shape [E, 2], in the direction of that triangle.
 
     triangles: vertex indices, shape [T, 3].
@@ -49,9 +50,9 @@ class Shell:
 
     count: int
     sheet: Triangles
-    rim: NDArray[np.int32]
-    uvs: Array
-    sheet_uvs: Array
+    rim: Pairs
+    uvs: UVs
+    sheet_uvs: UVs
     uv_mapping: UVMapping = SHEET_MAPPING
     grid: tuple[int, int] | None = None
 
@@ -70,18 +71,18 @@ class Shell:
         return faces_around(self.sheet, self.count)
 
     @cached_property
-    def runs_around(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def runs_around(self) -> tuple[Integers, Integers]:
         """starts [N + 1] and triangles [3 T]: those at vertex i are starts[i] to starts[i + 1]."""
         corners = self.sheet.T.reshape(-1)
         order = np.argsort(corners, kind="stable")
         starts = np.concatenate([[0], np.cumsum(np.bincount(corners, minlength=self.count))])
         return starts, order % max(1, len(self.sheet))
 
-    def normals(self, positions: Array) -> Array:
+    def normals(self, positions: Vectors) -> Vectors:
         """The averaged normals of thin sheets [m], both of shape [..., N, 3]."""
         return normals_around(positions, self.sheet, self._around)
 
-    def cover(self, positions: Array, normals: Array, thickness: float) -> Mesh:
+    def cover(self, positions: Vectors, normals: Vectors, thickness: float) -> Mesh:
         """The shells around thin sheets: each vertex moves half the thickness along its normal.
 
         positions, normals: [m] and unit, shape [..., N, 3].
@@ -107,7 +108,7 @@ class Shell:
 
 def make_shell(
     triangles: Triangles,
-    uvs: Array,
+    uvs: UVs,
     uv_mapping: UVMapping = SHEET_MAPPING,
     grid: tuple[int, int] | None = None,
 ) -> Shell:

@@ -13,10 +13,11 @@ from typing import Any
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
 from drapery.render.identity_cache import IdentityCache
-from drapery.render.scene import Material, SurfaceDetail, Texels
+from drapery.render.scene import Material, SurfaceDetail
 from drapery.style.uv_mapping import UVMapping
 
 SIDE = 256

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.render.scene import Texels
+from drapery.arrays import Texels
 
 PALETTE: dict[str, tuple[int, int, int]] = {
     "h": (92, 58, 34),

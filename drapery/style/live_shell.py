@@ -5,8 +5,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Triangles
 from drapery.jit import entry_point, kernel
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 from drapery.render.light import Light
 from drapery.style.crowds import average_normals, cover_sheet, least_lengths
 from drapery.style.extrusion import THINNEST, Shell

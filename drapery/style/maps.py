@@ -2,8 +2,8 @@
 
 from typing import NamedTuple
 
+from drapery.arrays import Texels
 from drapery.banner.design import Banner
-from drapery.banner.packs.png import Texels
 from drapery.banner.packs.stack import Base, Kind, Packs
 
 

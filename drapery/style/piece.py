@@ -7,8 +7,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Mask, Triangles, Vectors
 from drapery.errors import OptionError
-from drapery.mesh import Array, Mesh, Triangles
+from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material, TextureLayer
 from drapery.style.extrusion import Shell, make_shell
 from drapery.style.refinement import cover_curves
@@ -55,14 +56,14 @@ class Piece:
             raise OptionError("this step needs a whole sheet; put it before the step that cuts it")
         return self.shell.grid
 
-    def rows(self, positions: Array) -> Array:
+    def rows(self, positions: Vectors) -> Vectors:
         """Positions [..., N, 3] as rows and columns, shape [..., rows, columns, 3].
 
         Raises OptionError for a piece with cells cut out.
         """
         return positions.reshape(*positions.shape[:-2], *self.grid_shape, 3)
 
-    def without_cells(self, kept: NDArray[np.bool_], uv_mapping: UVMapping) -> "Piece":
+    def without_cells(self, kept: Mask, uv_mapping: UVMapping) -> "Piece":
         """The piece with only the cells that are kept, shape [rows - 1, columns - 1].
 
         uv_mapping: where its front, back and new rim lie on the texture.
@@ -75,7 +76,7 @@ class Piece:
         cut = make_shell(whole.sheet[kept[row, column]], whole.sheet_uvs, uv_mapping)
         return replace(self, shell=cut)
 
-    def mesh(self, positions: Array, normals: Array | None = None) -> Mesh:
+    def mesh(self, positions: Vectors, normals: Vectors | None = None) -> Mesh:
         """The closed mesh: two sheets and a rim, along the normals or with sharp edges.
 
         positions: of its vertices [m], shape [..., N, 3].

@@ -8,10 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from drapery.arrays import Mask, Texels
 from drapery.mesh import Array
-from drapery.render.scene import Texels
-
-Mask = NDArray[np.bool_]
 
 
 def outline(rows: int, columns: int) -> NDArray[np.int32]:

@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from drapery.banner.packs.png import Texels
+from drapery.arrays import Texels
 from drapery.errors import OptionError
 from drapery.mesh import Mesh
 from drapery.render.scene import Rig

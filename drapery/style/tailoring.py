@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
 from drapery.banner.sprites import tint
 from drapery.errors import OptionError
 from drapery.mesh import Array
-from drapery.render.scene import Material, Model, Texels, TextureLayer
+from drapery.render.scene import Material, Model, TextureLayer
 from drapery.style.piece import Piece
 
 TEXEL = 1 / 16

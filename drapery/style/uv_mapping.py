@@ -6,6 +6,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Pairs, UVs
 from drapery.mesh import Array
 
 Rect = tuple[float, float, float, float]
@@ -15,13 +16,13 @@ Rect = tuple[float, float, float, float]
 class UVMapping(Protocol):
     """Maps a thin cloth's UVs (0..1 over its face) to those of its thick shell."""
 
-    def front(self, uvs: Array) -> Array:
+    def front(self, uvs: UVs) -> UVs:
         """UVs of the front sheet, shape [N, 2]."""
 
-    def back(self, uvs: Array) -> Array:
+    def back(self, uvs: UVs) -> UVs:
         """UVs of the back sheet, shape [N, 2]."""
 
-    def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:
+    def rim(self, uvs: UVs, edges: Pairs) -> UVs:
         """UVs of the rim, shape [4 E, 2]: front start, front end, back start, back end."""
 
     def __hash__(self) -> int:
@@ -31,13 +32,13 @@ class UVMapping(Protocol):
 class SheetMapping:
     """The same picture on both sides; the rim repeats the texels at the border. See `UVMapping`."""
 
-    def front(self, uvs: Array) -> Array:
+    def front(self, uvs: UVs) -> UVs:
         return uvs
 
-    def back(self, uvs: Array) -> Array:
+    def back(self, uvs: UVs) -> UVs:
         return uvs
 
-    def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:
+    def rim(self, uvs: UVs, edges: Pairs) -> UVs:
         return uvs[np.tile(edges, 2).reshape(-1)]
 
 
@@ -79,14 +80,14 @@ class BoxMapping:
     top: Rect
     bottom: Rect
 
-    def front(self, uvs: Array) -> Array:
+    def front(self, uvs: UVs) -> UVs:
         return _place(uvs, self.front_rect)
 
-    def back(self, uvs: Array) -> Array:
+    def back(self, uvs: UVs) -> UVs:
         # Seen from behind, the right of the cloth is on the left.
         return _place(np.stack([1 - uvs[:, 0], uvs[:, 1]], axis=-1), self.back_rect)
 
-    def rim(self, uvs: Array, edges: NDArray[np.int32]) -> Array:
+    def rim(self, uvs: UVs, edges: Pairs) -> UVs:
         start, end = uvs[edges[:, 0]], uvs[edges[:, 1]]
         middle = (start + end) / 2
         depth = np.abs(np.stack([middle[:, 0], 1 - middle[:, 0], middle[:, 1], 1 - middle[:, 1]]))

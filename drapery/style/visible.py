@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from drapery.banner.packs.png import Texels
+from drapery.arrays import Texels
 from drapery.style.uv_mapping import Rect
 
 LEAST_ALPHA = 128

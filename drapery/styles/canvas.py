@@ -7,11 +7,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Pixels, Words
 from drapery.errors import OptionError
 from drapery.render.buffers import Buffers
 from drapery.render.flatten import lay_over
-from drapery.render.pixels import Pixels
-from drapery.styles.colours import Words, as_pixels
+from drapery.styles.colours import as_pixels
 
 PLACES = 3
 """Places across a large pixel, and down it, of which it shows one."""

@@ -12,9 +12,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Mask, Texels
 from drapery.banner.dyes import DYES
 from drapery.render.flatten import lay_over
-from drapery.render.scene import Material, Texels
+from drapery.render.scene import Material
 
 SHEET = 64
 """Width of a sheet [texels]."""
@@ -24,7 +25,6 @@ STEP = 64
 """The least change of alpha, over a texel of the sheet, that is an edge of a shape."""
 
 Numbers = NDArray[np.intp]
-Marks = NDArray[np.bool_]
 Shares = NDArray[np.float32]
 Item = TypeVar("Item", bound=np.generic)
 
@@ -83,7 +83,7 @@ def is_dyed(material: Material) -> bool:
     return tinted > 0 and tinted >= len(material.layers) - 1
 
 
-def fades(alpha: NDArray[np.uint8], field: Marks) -> bool:
+def fades(alpha: NDArray[np.uint8], field: Mask) -> bool:
     """Whether a layer is a gradient: less than half of its outline on the field is an edge.
 
     alpha: shape [H, W]. field: where the lowest dye is, of the same shape.

@@ -1,15 +1,11 @@
 """Colours in styles: as text in files, as levels, and as words of pixels."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-from drapery.render.pixels import Pixels
+from drapery.arrays import Pixels, Words
 
 COLOUR_PATTERN = r"^#[0-9a-fA-F]{6}$"
 """A colour in a style, such as `#5a3c1e`."""
-
-Words = NDArray[np.uint32]
-"""Pixels as one number each: red, green, blue and alpha from the lowest byte to the highest."""
 
 
 def rgb_of(colour: str) -> tuple[int, ...]:

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Words
 from drapery.jit import entry_point, kernel
-from drapery.styles.colours import Words
 
 Levels = NDArray[np.uint8]
 Whole = NDArray[np.int32]

@@ -10,23 +10,23 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
+from drapery.arrays import Mask, Texels
 from drapery.banner.dyes import DYES
 from drapery.elementary import cos, sin, sine_of_turns
 from drapery.mesh import Array
-from drapery.render.scene import Material, Texels, TextureLayer
+from drapery.render.scene import Material, TextureLayer
 from drapery.styles.charges import (
     SHEET,
     Charges,
-    Marks,
     Numbers,
     charges_of,
     is_dyed,
     merged_texels,
 )
-from drapery.styles.colour_field import Colour
 from drapery.styles.colours import as_pixels, rgb_of
 from drapery.styles.palettes import (
     DARK_AND_LIGHT,
+    Colour,
     DitherPattern,
     DitherStrength,
     PaletteColours,
@@ -301,7 +301,7 @@ def _lines(mark: str, spacing: int, width: Array) -> Array:
         staggered: Numbers = np.asarray(y + x // spacing % 2 * (spacing // 2))
         return np.multiply(upright, _stripes(staggered, spacing, width))
     if mark == ":":
-        dashes: Marks = (x + y // spacing % 2 * spacing) % (2 * spacing) < spacing
+        dashes: Mask = (x + y // spacing % 2 * spacing) % (2 * spacing) < spacing
         return np.multiply(level, dashes)
     slanting: Array = np.asarray((x - y if mark == "\\" else x + y) / 2**0.5)
     return _stripes(slanting, spacing, width)
@@ -314,7 +314,7 @@ def _stripes(place: Array | Numbers, spacing: int, width: Array) -> Array:
     return np.minimum(covered, width)
 
 
-def _borders(values: Numbers) -> Marks:
+def _borders(values: Numbers) -> Mask:
     """Whether the value to the right of a pixel, or below it, is another one."""
     edge = np.zeros(values.shape, np.bool_)
     edge[:, :-1] |= values[:, :-1] != values[:, 1:]
@@ -322,21 +322,21 @@ def _borders(values: Numbers) -> Marks:
     return edge
 
 
-def _near(marks: Marks, distance: int) -> Marks:
+def _near(marks: Mask, distance: int) -> Mask:
     """Pixels at most this far from a mark, across, down or diagonally."""
     from scipy.ndimage import binary_dilation
 
     if distance < 1:
         return marks
-    near: Marks = binary_dilation(marks, np.ones((3, 3), np.bool_), distance)
+    near: Mask = binary_dilation(marks, np.ones((3, 3), np.bool_), distance)
     return near
 
 
-def _opened(marks: Marks, width: int) -> Marks:
+def _opened(marks: Mask, width: int) -> Mask:
     """The marks that lie in a square of marks of about this width."""
     from scipy.ndimage import binary_erosion
 
-    inner: Marks = binary_erosion(marks, np.ones((3, 3), np.bool_), max(1, width // 2))
+    inner: Mask = binary_erosion(marks, np.ones((3, 3), np.bool_), max(1, width // 2))
     return _near(inner, max(1, width // 2)) & marks
 
 

@@ -6,11 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from drapery.arrays import Words
 from drapery.mesh import Array
-from drapery.styles.colour_field import Colour
-from drapery.styles.colours import Words, rgb_of
+from drapery.styles.colours import COLOUR_PATTERN, rgb_of
 from drapery.styles.palette_files import MAX_COLOURS
 from drapery.styles.void_and_cluster import blue_noise
+
+Colour = Annotated[str, Field(pattern=COLOUR_PATTERN)]
+"""A parameter of a step that is a colour."""
 
 PaletteColours = Annotated[
     tuple[Colour, ...],

@@ -11,14 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from drapery.arrays import Pixels, Words
 from drapery.elementary import cos, sin
 from drapery.render.buffers import BACKGROUND, Buffers
-from drapery.render.pixels import Pixels
 from drapery.styles.canvas import Canvas, laid_over
-from drapery.styles.colour_field import Colour
-from drapery.styles.colours import Words, as_pixels, rgb_of, word_of
+from drapery.styles.colours import as_pixels, rgb_of, word_of
 from drapery.styles.palettes import (
     DARK_AND_LIGHT,
+    Colour,
     DitherPattern,
     DitherStrength,
     PaletteColours,

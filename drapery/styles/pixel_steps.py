@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from drapery.arrays import Words
 from drapery.render.buffers import Buffers
 from drapery.styles.canvas import VISIBLE, Canvas
-from drapery.styles.colours import Words, as_pixels
+from drapery.styles.colours import as_pixels
 from drapery.styles.step import costs, over_time
 
 COLOUR = np.uint32(0xFFFFFF)

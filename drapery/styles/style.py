@@ -9,8 +9,9 @@ from typing import Literal
 
 import numpy as np
 
+from drapery.arrays import Vectors
 from drapery.errors import OptionError
-from drapery.mesh import Array, Mesh
+from drapery.mesh import Mesh
 from drapery.option import one_of
 from drapery.render.backends import DrawScene, draw_with_buffers
 from drapery.render.buffers import Buffers
@@ -104,18 +105,18 @@ class Style:
             own["samples"] = self.samples
         return settings.changed(**own)
 
-    def move(self, piece: Piece, positions: Array) -> Array:
+    def move(self, piece: Piece, positions: Vectors) -> Vectors:
         """The positions of a piece at all moments [m], [F, N, 3], after the motion steps."""
         for step in self._of("motion"):
             positions = step.apply(piece, positions)
         return positions
 
-    def mesh(self, piece: Piece, positions: Array) -> Mesh:
+    def mesh(self, piece: Piece, positions: Vectors) -> Mesh:
         """The shape steps applied, then the thickness. Raises OptionError.
 
         positions: of the piece at one moment [m], shape [N, 3].
         """
-        shaped: Mesh | tuple[Piece, Array] = piece, positions
+        shaped: Mesh | tuple[Piece, Vectors] = piece, positions
         for step in self._of("shape"):
             if isinstance(shaped, Mesh):
                 raise OptionError(

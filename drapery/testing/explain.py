@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from drapery import Banner
+from drapery.arrays import Pixels
 from drapery.banner import FLAG_REGIONS, flag_layers
 from drapery.comparison import (
     EXACT,
@@ -23,7 +24,7 @@ from drapery.comparison import (
 )
 from drapery.errors import DraperyError, counted
 from drapery.packs import Packs
-from drapery.render import Pixels, png_bytes
+from drapery.render import png_bytes
 
 MAX_SHIFT = 4
 """How far a layer's picture may have moved to be recognised [texels]."""

@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from drapery.arrays import Pixels
 from drapery.comparison import (
     EXACT,
     Picture,
@@ -33,7 +34,7 @@ from drapery.comparison import (
 )
 from drapery.errors import OutputError, counted
 from drapery.output_files import make_folder, replacing
-from drapery.render import Pixels, png_bytes
+from drapery.render import png_bytes
 from drapery.testing.golden import decode, encode
 from drapery.testing.naming import ENDINGS
 

@@ -17,8 +17,8 @@ from drapery.file_formats import FORMATS, FileFormat, Kind, format_of, formats_o
 from drapery.output_files import check_writable, replacing
 
 if TYPE_CHECKING:
+    from drapery.arrays import HasPixels
     from drapery.render.encode.palette import Matte
-    from drapery.render.pixels import HasPixels
 
 SHEET = ".sheet.png"
 Progress = Callable[[int, int | None], None]

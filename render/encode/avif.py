@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 from PIL import Image, features
 
+from drapery.arrays import HasPixels
 from drapery.errors import BackendError, OptionError
 from drapery.render.encode.delays import frame_delays
-from drapery.render.pixels import HasPixels
 
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte

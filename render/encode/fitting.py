@@ -7,11 +7,11 @@ from pathlib import Path
 from shutil import copyfile
 from types import MappingProxyType
 
+from drapery.arrays import HasPixels
 from drapery.errors import OptionError, shown
 from drapery.file_formats import DESTINATIONS, Destination, FileFormat
 from drapery.output_files import replacing
 from drapery.render.encode import check_quality, check_target, save_animation
-from drapery.render.pixels import HasPixels
 
 RATES = (20.0, 15.0, 12.0)
 """Frames/s that are tried, the best first. GIF shows all of them exactly or nearly so."""

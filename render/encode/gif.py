@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import GifImagePlugin, Image
 
+from drapery.arrays import HasPixels
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import (
     FramePatch,
@@ -25,7 +26,6 @@ from drapery.render.encode.changes import (
 )
 from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.palette import MAX_COLOURS, Colours, ColourTable, Matte, Places, reduced
-from drapery.render.pixels import HasPixels
 
 KEEP, CLEAR = 1, 2  # GIF's disposal methods: how a viewer treats a frame before the next one
 LOOP_FOREVER = b"!\xff\x0bNETSCAPE2.0\x03\x01\0\0\0"

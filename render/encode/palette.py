@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from drapery.render.pixels import Pixels
+from drapery.arrays import Pixels
 
 Places = NDArray[np.int32]
 Colours = NDArray[np.uint8]

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, BinaryIO
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
+from drapery.arrays import HasPixels, Pixels
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import FramePatch, changed_patch, with_previous
 from drapery.render.encode.quick_png import SIGNATURE, png_chunk
-from drapery.render.pixels import HasPixels, Pixels
 
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte

@@ -13,11 +13,11 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from drapery.arrays import HasPixels
 from drapery.errors import OutputError
 from drapery.output_files import check_writable, explained, partial_path
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.png import png_bytes
-from drapery.render.pixels import HasPixels
 
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from drapery.arrays import HasPixels, Pixels
 from drapery.errors import OptionError, OutputError
 from drapery.file_formats import MAX_FPS
 from drapery.output_files import replacing
 from drapery.render.encode import check_sheet
 from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.png import png_bytes
-from drapery.render.pixels import HasPixels, Pixels
 
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from PIL import Image
 
+from drapery.arrays import HasPixels
 from drapery.render.encode.palette import Matte
-from drapery.render.pixels import HasPixels
 
 RESOLUTION = 300
 """What readers take the pixels of an inch for."""

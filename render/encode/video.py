@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from drapery.arrays import HasPixels, Pixels
 from drapery.errors import BackendError, OutputError
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.palette import Matte, over_matte
-from drapery.render.pixels import HasPixels, Pixels
 
 WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from PIL import Image
 
+from drapery.arrays import HasPixels, Pixels
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import FramePatch, changed_patch, with_previous
 from drapery.render.encode.delays import frame_delays
-from drapery.render.pixels import HasPixels, Pixels
 
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte

@@ -9,12 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Texels, Triangles
 from drapery.errors import OptionError
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
 from drapery.render.flatten import composite_layers
 from drapery.render.materials import ALPHA_CODES, MaterialTables
-from drapery.render.scene import Alpha, RiggedModel, Scene, Texels
+from drapery.render.scene import Alpha, RiggedModel, Scene
 
 MAX_NUMBERS = 1 << 27
 """The most coordinates of a 3-D file's frames; half a GiB."""

@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.render.export.parts import MeshPart, MeshParts
-from drapery.render.scene import Scene, Texels
+from drapery.render.scene import Scene
 
 
 def ply_files(parts: MeshParts, scene: Scene, fps: float, name: str) -> dict[str, bytes]:

@@ -18,13 +18,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Matrices, Pixels, Triangles
 from drapery.errors import BackendError, OptionError
-from drapery.mesh import Triangles
 from drapery.render.buffers import Buffers
-from drapery.render.camera import Matrix, clip_matrix
+from drapery.render.camera import clip_matrix
 from drapery.render.drawlist import DrawList, Float32, Topology, draw_list
 from drapery.render.flatten import composite_layers
-from drapery.render.frame import Frame, Pixels
+from drapery.render.frame import Frame
 from drapery.render.gl.platform import load_pyrender, release
 from drapery.render.materials import BLEND, CUTOUT, MaterialTables
 from drapery.render.relief import has_relief
@@ -217,7 +217,7 @@ def _light(vertices: Any, scene: Scene, drawing: DrawList) -> Any:
     return CastLight(matrix, found.side, found.spread)
 
 
-def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrix) -> Triangles:
+def far_to_near(triangles: Triangles, positions: Float32, matrix: Matrices) -> Triangles:
     """Triangles that blend [T, 3], stably sorted by the depth of their middle, farthest first."""
     corners = positions[triangles].astype(np.float64)
     z, w = (dots(corners, row[:3]) + row[3] for row in matrix[2:])

@@ -13,12 +13,13 @@ import pyrender
 from numpy.typing import NDArray
 from OpenGL import GL
 
+from drapery.arrays import Texels
 from drapery.mesh import Array
 from drapery.render.camera import Camera, camera_pose
 from drapery.render.gl.passes import LayeredRenderer
 from drapery.render.light import Light
 from drapery.render.relief import relief_of
-from drapery.render.scene import Material, Model, Scene, Texels
+from drapery.render.scene import Material, Model, Scene
 from drapery.render.vectors import unit
 
 GAMMA = 2.2

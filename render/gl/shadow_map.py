@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from OpenGL import GL
 
-from drapery.render.camera import Matrix
+from drapery.arrays import Matrices
 
 UNIT = 7
 """The texture unit of the map; pyrender counts up from 0."""
@@ -21,7 +21,7 @@ class CastLight:
     spread: distance of the places compared [samples].
     """
 
-    matrix: Matrix
+    matrix: Matrices
     side: int
     spread: float
 

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from OpenGL import GL
 from pyrender.shader_program import ShaderProgramCache
 
+from drapery.arrays import Matrices
 from drapery.render.buffers import BACKGROUND, Buffers
-from drapery.render.camera import Matrix, clip_matrix, view_matrix
+from drapery.render.camera import clip_matrix, view_matrix
 from drapery.render.drawlist import DrawList, Topology
 from drapery.render.gl.passes import Vertices, attribute, filled, whole_attribute
 from drapery.render.materials import BLEND, CUTOUT, MaterialTables, material_numbers
@@ -96,7 +97,7 @@ def _framebuffer(size: tuple[int, int]) -> Iterator[None]:
 
 
 def _draw(
-    program: Any, matrix: Matrix, vertices: Vertices, extra: list[int], texture: int, count: int
+    program: Any, matrix: Matrices, vertices: Vertices, extra: list[int], texture: int, count: int
 ) -> None:
     """Draw the triangles. extra: buffers of normals, owners and triangles. count: of corners."""
     normals, owners, triangles = extra

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Matrices, Triangles
 from drapery.errors import OptionError
-from drapery.mesh import Mesh, Triangles
+from drapery.mesh import Mesh
 from drapery.render.buffers import Buffers
-from drapery.render.camera import Camera, Matrix, clip_matrix
+from drapery.render.camera import Camera, clip_matrix
 from drapery.render.detail import DetailTables
 from drapery.render.drawlist import DrawList, Float32, Topology, make_topology
 from drapery.render.flatten import composite_layers
@@ -330,7 +331,7 @@ def _background(scene: Scene) -> np.uint32:
 
 
 def _project(
-    scene: Scene, constant: Topology, matrix: Matrix, grid: int, workers: int
+    scene: Scene, constant: Topology, matrix: Matrices, grid: int, workers: int
 ) -> tuple[Raster, int]:
     """All vertices in picture coordinates, and the union of their flags."""
     total = int(constant.vertex_start[-1])
@@ -350,7 +351,7 @@ def _project(
 
 
 def _project_model(
-    mesh: Mesh, scene: Scene, matrix: Matrix, grid: int, arrays: tuple[Any, ...], workers: int
+    mesh: Mesh, scene: Scene, matrix: Matrices, grid: int, arrays: tuple[Any, ...], workers: int
 ) -> int:
     positions, normals = _vectors(mesh.positions), _vectors(mesh.normals)
     size = scene.size[0] * grid, scene.size[1] * grid
@@ -361,7 +362,7 @@ def _project_part(
     positions: Float32,
     normals: Float32,
     light: Light,
-    matrix: Matrix,
+    matrix: Matrices,
     size: tuple[int, int],
     arrays: tuple[Any, ...],
     workers: int,
@@ -407,7 +408,7 @@ def _shares(count: int, workers: int) -> list[int]:
     return [count * part // parts for part in range(parts + 1)]
 
 
-def _clipped(scene: Scene, raster: Raster, matrix: Matrix, grid: int) -> Raster:
+def _clipped(scene: Scene, raster: Raster, matrix: Matrices, grid: int) -> Raster:
     """The raster with flagged triangles clipped, in the same drawing order."""
     flagged = raster.flags[raster.triangles].any(axis=1)
     (whole,), (cut,) = np.nonzero(~flagged), np.nonzero(flagged)
@@ -436,7 +437,7 @@ def _joined_attributes(raster: Raster, corners: Float32) -> Iterator[Float32]:
         corners = corners[:, width:]
 
 
-def _clip_corners(scene: Scene, raster: Raster, matrix: Matrix, used: Triangles) -> Corners:
+def _clip_corners(scene: Scene, raster: Raster, matrix: Matrices, used: Triangles) -> Corners:
     """Clip coordinates, brightness, UVs and what else vertices have, shape [K, 3, 7 to 15]."""
     positions = np.concatenate([_vectors(model.mesh.positions) for model in scene.models])[used]
     coordinates = sum(positions[..., k, None] * matrix[:, k] for k in range(3)) + matrix[:, 3]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.render.camera import Matrix
+from drapery.arrays import Matrices
 from drapery.render.soft.projection import GUARD
 
 Corners = NDArray[np.float64]
@@ -35,7 +35,7 @@ def clip(corners: Corners, source: Index, width: int, height: int) -> ClippedTri
     return clipped
 
 
-def _planes(width: int, height: int) -> Matrix:
+def _planes(width: int, height: int) -> Matrices:
     """Planes; a point is inside if plane . (x, y, z, w) >= 0. The near plane is first: after it
     w > 0."""
     aside, up = GUARD / width, GUARD / height

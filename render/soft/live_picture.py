@@ -5,9 +5,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Triangles
 from drapery.errors import OptionError
 from drapery.jit import entry_point
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 from drapery.render.camera import clip_matrix
 from drapery.render.drawlist import Float32, make_topology
 from drapery.render.materials import BLEND

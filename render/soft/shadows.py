@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Triangles
 from drapery.elementary import cos, sin
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 from drapery.render.camera import Camera, Vector
 from drapery.render.drawlist import DrawList, Float32
 from drapery.render.light import Light

@@ -10,9 +10,9 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
+from drapery.arrays import Texels
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.places import Place, moved
-from drapery.banner.packs.png import Texels
 from drapery.banner.packs.stack import PackFile, Packs
 from drapery.banner.packs.texture_ids import full_id, split_id
 from drapery.banner.packs.versions import last_before

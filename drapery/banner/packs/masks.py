@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from drapery.banner.packs.png import Texels
+from drapery.arrays import Texels
 from drapery.banner.packs.resampling import common_side, resize
 
 MIN_SHARE = 32

@@ -4,15 +4,15 @@ from collections.abc import Mapping
 from io import BytesIO
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drapery.arrays import Mask, Texels
 from drapery.banner.packs.checks import within
-from drapery.banner.packs.png import MAX_PIXELS, MAX_SIDE, Texels
+from drapery.banner.packs.png import MAX_PIXELS, MAX_SIDE
 from drapery.banner.packs.texture_ids import full_id, split_id, texture_file
 from drapery.banner.packs.textures import MAX_SHEET
 from drapery.errors import PackError, counted
 
-ImageArray = NDArray[np.uint8] | NDArray[np.bool_]
+ImageArray = Texels | Mask
 """Texels [H, W, 4], sRGB with straight alpha, or a mask [H, W]: white with this alpha."""
 
 

@@ -3,15 +3,10 @@
 import struct
 from io import BytesIO
 
-import numpy as np
-from numpy.typing import NDArray
-
+from drapery.arrays import Texels
 from drapery.banner.packs.png_chunks import texel_chunks
 from drapery.errors import PackError
 from drapery.picture_pixels import pixels_of
-
-Texels = NDArray[np.uint8]
-"""A texture: sRGB with straight alpha, shape [H, W, 4], top row first."""
 
 MAX_SIDE = 8192
 MAX_PIXELS = 4096 * 4096

@@ -2,7 +2,8 @@
 
 from pathlib import Path
 
-from drapery.banner.packs.png import Texels, read_png
+from drapery.arrays import Texels
+from drapery.banner.packs.png import read_png
 from drapery.banner.packs.stack import MAX_PNG
 from drapery.user_files import read_user_file
 

@@ -6,7 +6,7 @@ from math import lcm
 import numpy as np
 from numpy.typing import NDArray
 
-from drapery.banner.packs.png import Texels
+from drapery.arrays import Texels
 
 MAX_COMPOSITE = 2048
 """Largest side of a sheet that combines several smaller ones [px]."""

@@ -11,6 +11,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Literal
 
+from drapery.arrays import Texels
 from drapery.banner.names import shown
 from drapery.banner.packs.checks import MAX_PATH, listed
 from drapery.banner.packs.folders import OwnArt
@@ -19,7 +20,7 @@ from drapery.banner.packs.memory import MemoryPack
 from drapery.banner.packs.meta import MAX_JSON, read_json
 from drapery.banner.packs.pack import Pack, added_patterns, extra_sprites, open_pack
 from drapery.banner.packs.places import Place, base_places, in_order, wings_places
-from drapery.banner.packs.png import MAX_PIXELS, Texels, is_plain_rgba, png_size, read_png
+from drapery.banner.packs.png import MAX_PIXELS, is_plain_rgba, png_size, read_png
 from drapery.banner.packs.png_chunks import wrong_checksums
 from drapery.banner.packs.resampling import squared
 from drapery.banner.packs.sources import PackSource

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.banner.names import shown
 from drapery.banner.packs.masks import from_mask
 from drapery.banner.packs.meta import read_json
-from drapery.banner.packs.png import Texels
 from drapery.banner.packs.resampling import common_side, squared
 from drapery.errors import PackError
 

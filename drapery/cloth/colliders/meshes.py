@@ -5,9 +5,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from drapery.arrays import Triangles
 from drapery.cloth.colliders.shapes import MAX_TRIANGLES, TriangleMesh, sixfold_volumes
 from drapery.errors import OptionError
-from drapery.mesh import Array, Triangles, face_normals
+from drapery.mesh import Array, face_normals
 from drapery.mesh_file import joined, read_mesh_file
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from drapery.arrays import Floats, Matrices, Vectors
 from drapery.elementary import sine_of_turns
 from drapery.errors import OptionError
 from drapery.mesh import Array
@@ -18,8 +19,8 @@ class Pose:
     rotation: rotation matrix, shape [3, 3].
     """
 
-    position: Array = field(default_factory=lambda: np.zeros(3))
-    rotation: Array = field(default_factory=lambda: np.eye(3))
+    position: Vectors = field(default_factory=lambda: np.zeros(3))
+    rotation: Matrices = field(default_factory=lambda: np.eye(3))
 
 
 Path = Callable[[float], Pose]
@@ -79,7 +80,7 @@ def swinging(pivot: tuple[float, float, float], swing: float, period: float, pha
     return pose
 
 
-def rotation_about(axis: tuple[float, float, float], angle: float | Array) -> Array:
+def rotation_about(axis: tuple[float, float, float], angle: float | Floats) -> Matrices:
     """Rotation matrix about an axis, by Rodrigues' formula.
 
     axis: in any length.

@@ -5,9 +5,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Triangles
 from drapery.cloth.cloth import Cloth
 from drapery.errors import OptionError
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 
 
 class SamplePoints(NamedTuple):

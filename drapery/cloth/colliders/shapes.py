@@ -5,9 +5,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Integers, Mask, Matrices, Triangles, Vectors
 from drapery.cloth.colliders.user_defined import SignedDistance
 from drapery.errors import OptionError
-from drapery.mesh import Array, Triangles
+from drapery.mesh import Array
 
 MAX_CELLS = 1 << 24
 MAX_TRIANGLES = 1_000_000
@@ -17,7 +18,7 @@ MAX_TRIANGLES = 1_000_000
 class Sphere:
     """A ball: centre [m], shape [3]; radius [m]. Raises OptionError for a radius not above 0."""
 
-    centre: Array
+    centre: Vectors
     radius: float
 
     def __post_init__(self) -> None:
@@ -32,8 +33,8 @@ class Capsule:
     Raises OptionError for ends that are not finite and a radius not above 0.
     """
 
-    start: Array
-    end: Array
+    start: Vectors
+    end: Vectors
     radius: float
 
     def __post_init__(self) -> None:
@@ -48,9 +49,9 @@ class Box:
     centre, a matrix [3, 3]. Raises OptionError for sizes not above 0 and other matrices.
     """
 
-    centre: Array
-    size: Array
-    rotation: Array = field(default_factory=lambda: np.eye(3))
+    centre: Vectors
+    size: Vectors
+    rotation: Matrices = field(default_factory=lambda: np.eye(3))
 
     def __post_init__(self) -> None:
         _points("Box centre", self.centre, (3,))
@@ -66,8 +67,8 @@ class Plane:
     normal: points to free space, shape [3], of any length above 0. Raises OptionError.
     """
 
-    point: Array
-    normal: Array
+    point: Vectors
+    normal: Vectors
 
     def __post_init__(self) -> None:
         _points("Plane point", self.point, (3,))
@@ -86,7 +87,7 @@ class Voxels:
     Raises OptionError.
     """
 
-    cells: NDArray[np.integer]
+    cells: Integers
     size: float = 1.0
 
     def __post_init__(self) -> None:
@@ -116,10 +117,10 @@ class TriangleMesh:
     solid: whether each part is closed, shape [P].
     """
 
-    vertices: Array
+    vertices: Vectors
     triangles: Triangles
-    part: NDArray[np.int32]
-    solid: NDArray[np.bool_]
+    part: Integers
+    solid: Mask
 
 
 Shape = Sphere | Capsule | Box | Plane | Voxels | TriangleMesh | SignedDistance

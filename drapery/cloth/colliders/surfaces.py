@@ -9,13 +9,14 @@ it points along the pseudonormal of the face, edge or vertex on which that neare
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Triangles
 from drapery.cloth.colliders.bvh import build_tree
 from drapery.cloth.colliders.fields import SURFACE, Field
 from drapery.cloth.colliders.shapes import TriangleMesh
 from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, row, scale, subtract
 from drapery.elementary import arccos
 from drapery.jit import kernel
-from drapery.mesh import Array, Triangles, face_normals
+from drapery.mesh import Array, face_normals
 
 FACE, EDGE_AB, EDGE_BC, EDGE_CA, AT_A, AT_B, AT_C = range(7)
 """The feature of a triangle on which a nearest point lies; also the index of its pseudonormal."""

@@ -14,14 +14,15 @@ from typing import Any, NamedTuple, Protocol, TypeGuard
 import numpy as np
 from numpy.typing import ArrayLike
 
+from drapery.arrays import Floats
 from drapery.cloth.colliders.fields import USER_DEFINED, Field
 from drapery.cloth.colliders.vectors import Vector
 from drapery.errors import OptionError
 from drapery.jit import numba_name
 from drapery.mesh import Array
 
-DistanceFunction = Callable[[Vector, Array], float]
-GradientFunction = Callable[[Vector, Array], Vector]
+DistanceFunction = Callable[[Vector, Floats], float]
+GradientFunction = Callable[[Vector, Floats], Vector]
 
 
 class SignedDistance(Protocol):
@@ -47,7 +48,7 @@ class SignedDistance(Protocol):
     def signed_distance(self) -> DistanceFunction: ...
 
     @property
-    def parameters(self) -> Sequence[float] | Array: ...
+    def parameters(self) -> Sequence[float] | Floats: ...
 
     @property
     def bounds(self) -> ArrayLike: ...

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from drapery.arrays import Floats
 from drapery.cloth import kernels, lanes, simd
 from drapery.cloth.bending import Stencils, fastest_bending, force_stencils
 from drapery.cloth.checks import check_count, check_number
@@ -120,7 +121,7 @@ class SolverState:
     alone: bool = False
     often: bool = False
     limit: StrainLimit = NEVER
-    squares: Array = field(default_factory=lambda: np.zeros((2, 0)))
+    squares: Floats = field(default_factory=lambda: np.zeros((2, 0)))
     by_type: dict[Any, Any] = field(default_factory=dict)
 
     def of(self, dtype: Any) -> Any:

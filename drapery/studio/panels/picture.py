@@ -11,6 +11,7 @@ from nicegui import context, ui
 from starlette.concurrency import run_in_threadpool
 
 from drapery import DraperyError, OptionError
+from drapery.arrays import Texels
 from drapery.banner import LOOM_LAYERS
 from drapery.file_formats import endings_read
 from drapery.match import (
@@ -22,7 +23,7 @@ from drapery.match import (
     match_photo,
     read_pixels,
 )
-from drapery.packs import Packs, Texels
+from drapery.packs import Packs
 from drapery.studio.descriptions import described
 from drapery.studio.design_buttons import DesignButton, DesignList
 from drapery.studio.file_field import FileField

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
 from drapery.banner.packs.equipment import WINGS_SHEET, whole_wings
-from drapery.banner.packs.png import Texels
 from drapery.banner.packs.png_file import read_png_file
 from drapery.errors import OptionError
 from drapery.settings import Settings
