@@ -27,6 +27,12 @@ def test_files_that_repeat_the_version_have_that_of_the_package() -> None:
     assert len(found) > 4 and {"".join(each) for each in found} == {version}
 
 
+def test_the_extra_of_a_release_has_what_its_build_needs() -> None:
+    """It is built without isolation, and a new environment has no setuptools."""
+    needed = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["build-system"]["requires"]
+    assert set(needed) <= set(PROJECT["optional-dependencies"]["release"])
+
+
 def test_the_changelog_has_the_form_of_keep_a_changelog() -> None:
     text = (ROOT / "CHANGELOG.md").read_text("utf-8")
     versions = re.findall(r"(?m)^## (.*)$", text)
