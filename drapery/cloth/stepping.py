@@ -149,9 +149,15 @@ def simulate(
 ) -> Iterator[State]:
     """An endless iterator of states: the start, then one state after every `every` steps.
 
-    solver: `SolverXPBD()` by default. forces: by default only gravity. dt: one step [s].
-    start: by default `count` cloths in the rest shape. pins: a path of the pinned particles.
-    collisions: resolved after every step. Use `itertools.islice` to take a number of states.
+    solver: `SolverXPBD()` by default.
+    forces: by default only gravity.
+    dt: one step [s].
+    start: by default `count` cloths in the rest shape.
+    pins: a path of the pinned particles.
+    collisions: resolved after every step.
+
+    `itertools.islice` takes a number of states.
+
     The call raises OptionError for wrong arguments. The iterator raises it where a force or a path
     returns a wrong value, and where positions become infinite.
     """
