@@ -1,7 +1,12 @@
 """Errors for users: one line with the input, the place in it and the remedy."""
 
+import shlex
+
 MAX_SHOWN = 48
 """The most characters of a value in a message."""
+
+_SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-:./,#")
+"""Characters that no shell reads as more than themselves within double quotes."""
 
 
 def counted(number: float, noun: str, plural: str = "") -> str:
@@ -17,6 +22,13 @@ def shown(value: object) -> str:
     except ValueError:  # Python does not write whole numbers of over 4300 digits
         return "of thousands of digits"
     return text if len(text) <= MAX_SHOWN else text[: MAX_SHOWN - 4] + " ..."
+
+
+def quoted(word: str) -> str:
+    """A word of a command for a shell; in double quotes if possible, as Windows knows no others."""
+    if word and _SAFE.issuperset(word):
+        return f'"{word}"' if {" ", "#"}.intersection(word) else word
+    return shlex.quote(word)
 
 
 class DraperyError(Exception):

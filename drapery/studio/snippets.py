@@ -1,7 +1,6 @@
 """The command or the Python code that makes the same file as an export."""
 
 import json
-import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,6 +8,7 @@ from typing import Any
 
 from drapery import Banner, Settings
 from drapery.banner import write_banner
+from drapery.errors import quoted
 from drapery.file_formats import formats_of
 from drapery.garments import (
     Garment,
@@ -61,8 +61,6 @@ design has no options."""
 
 CAPES = ("cape", "elytra")
 """Garments that show the design although their own texture is another."""
-
-_SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-:./,#")
 
 
 @dataclass(frozen=True)
@@ -191,18 +189,18 @@ def as_command(
         return _scene_command(request, scene, stem)
     found, player = drawn_garment(request), _player(request)
     banner = request.banner if found is None else _design_on(request)
-    design = [] if banner is None else [_quoted(write_banner(banner, "shorthand"))]
-    out = _quoted(file_name(request, stem))
+    design = [] if banner is None else [quoted(write_banner(banner, "shorthand"))]
+    out = quoted(file_name(request, stem))
     if request.kind == "json":
         return " ".join(["drapery show", *design, "--as json", ">", out])
     command = _COMMANDS[OUTPUTS[request.kind][0]]
     if player is not None:
         command, design = "player", [*_player_flags(player, called or {})]
     elif found is not None:
-        command = f"garment {_quoted(_garment_name(str(request.garment), called or {}))}"
+        command = f"garment {quoted(_garment_name(str(request.garment), called or {}))}"
         design = ["--design", *design] if design else []
     words = [f"drapery {command}", *design, "-o", out]
-    words += [_quoted(word) for word in _flags(request, called or {})]
+    words += [quoted(word) for word in _flags(request, called or {})]
     return " ".join(words)
 
 
@@ -241,18 +239,18 @@ def as_python(
 def _player_flags(player: PlayerSettings, called: Mapping[str, str]) -> Iterator[str]:
     for name, value in _player_words(player, called).items():
         for each in value if isinstance(value, list) else (value,):
-            yield from (PLAYER_OPTIONS[name].command_flag, _quoted(each))
+            yield from (PLAYER_OPTIONS[name].command_flag, quoted(each))
 
 
 def _scene_command(request: ExportRequest, scene: SceneChoice, stem: str) -> str:
-    words = ["drapery scene", scene.name, "-o", _quoted(file_name(request, stem))]
+    words = ["drapery scene", scene.name, "-o", quoted(file_name(request, stem))]
     if request.kind in LOOPS:
         words += ["--seconds", plain(request.seconds), "--fps", plain(request.fps)]
     words += ["--size", "x".join(map(str, request.settings.size))]
     for style in style_names_of(request):
-        words += ["--style", _quoted(style)]
+        words += ["--style", quoted(style)]
     for name, value in scene.words:
-        words += ["--set", _quoted(f"{name}={value}")]
+        words += ["--set", quoted(f"{name}={value}")]
     return " ".join(words)
 
 
@@ -356,13 +354,6 @@ def _flags(request: ExportRequest, called: Mapping[str, str]) -> Iterator[str]:
 def plain(value: object) -> str:
     """The value in short form: 4 for 4.0; without rounding."""
     return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
-
-
-def _quoted(word: str) -> str:
-    """The word quoted for a shell; in double quotes if possible, as Windows knows no others."""
-    if word and _SAFE.issuperset(word):
-        return f'"{word}"' if {" ", "#"}.intersection(word) else word
-    return shlex.quote(word)
 
 
 def _text(value: object) -> str:

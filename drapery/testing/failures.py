@@ -11,7 +11,6 @@ import hashlib
 import json
 import math
 import re
-import shlex
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
@@ -32,7 +31,7 @@ from drapery.comparison import (
     joined_panels,
     write_text,
 )
-from drapery.errors import OutputError, counted
+from drapery.errors import OutputError, counted, quoted
 from drapery.output_files import make_folder, replacing
 from drapery.render import png_bytes
 from drapery.testing.golden import decode, encode
@@ -296,7 +295,7 @@ def _page_of(failures: list[FailedPicture], folder: Path, root: Path | None) -> 
         .from_string(texts["html"])
         .render(
             summary=f"{counted(len(failures), 'golden')} not as expected.",
-            folder=shlex.quote(_relative(folder, root) or folder.name),
+            folder=quoted(_relative(folder, root) or folder.name),
             style=texts["css"],
             script=texts["js"],
             entries=entries,

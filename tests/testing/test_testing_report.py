@@ -104,13 +104,18 @@ def test_pytest_writes_the_page_where_it_is_told(pytester: pytest.Pytester) -> N
     pytester.makepyfile(
         "import numpy as np\ndef test_one(golden):\n    golden(np.full((4, 4, 4), 255, np.uint8))\n"
     )
-    result = pytester.runpytest_inprocess("--drapery-report", "out/report.html")
+    result = pytester.runpytest_inprocess("--drapery-report", "my out/report.html")
     result.assert_outcomes(failed=1)
-    assert "<section" in (pytester.path / "out/report.html").read_text(encoding="utf-8")
-    assert list((pytester.path / "out/report.files").glob("*.actual.png"))
-    result = pytester.runpytest_inprocess("--drapery-report", "out/report.html", "--drapery-update")
+    page = (pytester.path / "my out/report.html").read_text(encoding="utf-8")
+    assert "<section" in page
+    # Neither cmd nor PowerShell 5.1 knows single quotes.
+    assert "drapery golden accept &#34;my out/report.files&#34; --only" in page
+    assert list((pytester.path / "my out/report.files").glob("*.actual.png"))
+    result = pytester.runpytest_inprocess(
+        "--drapery-report", "my out/report.html", "--drapery-update"
+    )
     result.assert_outcomes(passed=1)
-    assert not (pytester.path / "out/report.html").exists()
+    assert not (pytester.path / "my out/report.html").exists()
 
 
 def test_the_action_and_the_hook_call_commands_that_exist(tmp_path: Path) -> None:
