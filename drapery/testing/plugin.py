@@ -199,8 +199,9 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
         **limits: Any,
     ) -> None:
         __tracebackhide__ = True
-        try:
-            fault = _check(
+        _note(
+            request.node,
+            lambda: _check(
                 request,
                 _label(request.node, name, backend),
                 picture,
@@ -208,11 +209,8 @@ def golden(request: pytest.FixtureRequest) -> Iterator[Golden]:
                 tolerance=_tolerance(request.config, limits, hashed),
                 ending=".sha256" if hashed else ".png",
                 design=None if banner is None else (banner, tuple(packs)),
-            )
-        except DraperyError as error:
-            fault = str(error)
-        if fault is not None:
-            request.node.stash[_FAULTS].append(fault)
+            ),
+        )
 
     yield check
     _fail_late(request.node)
@@ -234,18 +232,27 @@ def golden_numbers(request: pytest.FixtureRequest) -> Iterator[Golden]:
         __tracebackhide__ = True
         from drapery.testing.numbers import check_numbers, is_file
 
-        try:
+        def fault() -> str | None:
             label = _label(request.node, name, "soft")
             path = _golden_path(request, label, ".sha256" if is_file(numbers) else ".npz")
             result = check_numbers(_golden_check(request, label, path), numbers, within)
-            fault = _told(request, label, result)
-        except DraperyError as error:
-            fault = str(error)
-        if fault is not None:
-            request.node.stash[_FAULTS].append(fault)
+            return _told(request, label, result)
+
+        _note(request.node, fault)
 
     yield check
     _fail_late(request.node)
+
+
+def _note(item: pytest.Item, check: Callable[[], str | None]) -> None:
+    """Keep the fault that a check finds until the end of the test."""
+    __tracebackhide__ = True
+    try:
+        fault = check()
+    except DraperyError as error:
+        fault = str(error)
+    if fault is not None:
+        item.stash[_FAULTS].append(fault)
 
 
 def _fail_late(item: pytest.Item) -> None:
