@@ -37,11 +37,10 @@ from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.batch.jobs import Job, plan, run_job
 from drapery.batch.manifest import read_manifest
-from drapery.batch.pool import ProcessPool
+from drapery.batch.pool import ProcessPool, warm_up
 from drapery.batch.results import FILE, ResultsDB
 from drapery.batch.run import Progress, execute
 from drapery.batch.stores import open_store
-from drapery.batch.warmup import warm_up
 
 
 def mixed(path: Path, count: int, size: str = "48x48", loops: int = 10) -> Path:

@@ -1,8 +1,11 @@
 """The formats of picture, animation, 3-D and page files, and where loops are posted: tables that
 every part reads."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache
+from itertools import count
 from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, TypeAlias
@@ -298,3 +301,10 @@ DESTINATIONS = MappingProxyType(
     }
 )
 """Where loops are posted, by name."""
+
+
+def frame_delays(fps: float, ticks_per_second: int) -> Iterator[int]:
+    """Each frame's time in ticks; their sum is never more than half a tick from the true time."""
+    step = ticks_per_second / Fraction(fps)
+    for frame in count():
+        yield round(step * (frame + 1)) - round(step * frame)

@@ -11,12 +11,11 @@ from typing import Any
 from drapery.batch.executor import Executor, RetryPolicy
 from drapery.batch.jobs import Job, plan, run_job
 from drapery.batch.manifest import read_manifest
-from drapery.batch.pool import JobLimits, ProcessPool
+from drapery.batch.pool import JobLimits, ProcessPool, warm_up
 from drapery.batch.report import write_report
 from drapery.batch.results import FILE, OutputRecord, ResultsDB
 from drapery.batch.run import OnEvent, Progress, execute
 from drapery.batch.stores import LocalStore, Store, open_store
-from drapery.batch.warmup import warm_up
 from drapery.errors import OptionError, OutputError
 from drapery.option import within
 

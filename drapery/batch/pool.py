@@ -269,3 +269,13 @@ def _ending(code: int | None) -> str:
 def _resident(pid: int | None) -> int:
     """A process's memory [bytes]; 0 if the system does not report it."""
     return worker_process.memory_of(pid, worker_process.RESIDENT)
+
+
+def warm_up(*, stills: bool = True, loops: bool = True) -> None:
+    """Fill numba's cache before workers start: draw tiny pictures of the sorts that they draw."""
+    from drapery import Banner, animate, draw
+
+    if stills:
+        draw(Banner(), size=(8, 8), time=0.05)
+    if loops:
+        animate(Banner(), size=(8, 8), seconds=0.1, fps=10)

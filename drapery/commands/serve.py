@@ -56,8 +56,7 @@ def run(
         from drapery.serve.server import address_of, check_proxies, listen, run_server
     except ImportError:
         raise BackendError('the service needs an extra; pip install "drapery-mc[serve]"') from None
-    from drapery.batch.pool import JobLimits
-    from drapery.batch.warmup import warm_up
+    from drapery.batch.pool import JobLimits, warm_up
     from drapery.serve.request_params import PictureLimits, ServiceConfig, pictures_in
     from drapery.serve.signatures import SECRET, check_secret
 

@@ -14,7 +14,7 @@ from PIL import Image, features
 
 from drapery.arrays import HasPixels
 from drapery.errors import BackendError, OptionError
-from drapery.render.encode.delays import frame_delays
+from drapery.file_formats import frame_delays
 
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte

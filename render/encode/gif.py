@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from PIL import GifImagePlugin, Image
 
 from drapery.arrays import HasPixels
+from drapery.file_formats import frame_delays
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import (
     FramePatch,
@@ -24,7 +25,6 @@ from drapery.render.encode.changes import (
     cut,
     with_previous,
 )
-from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.palette import MAX_COLOURS, Colours, ColourTable, Matte, Places, reduced
 
 KEEP, CLEAR = 1, 2  # GIF's disposal methods: how a viewer treats a frame before the next one

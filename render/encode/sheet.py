@@ -14,10 +14,9 @@ import numpy as np
 
 from drapery.arrays import HasPixels, Pixels
 from drapery.errors import OptionError, OutputError
-from drapery.file_formats import MAX_FPS
+from drapery.file_formats import MAX_FPS, frame_delays
 from drapery.output_files import replacing
 from drapery.render.encode import check_sheet
-from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.png import png_bytes
 
 if TYPE_CHECKING:

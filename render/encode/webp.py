@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, BinaryIO
 from PIL import Image
 
 from drapery.arrays import HasPixels, Pixels
+from drapery.file_formats import frame_delays
 from drapery.render.encode.ahead import encode_ahead
 from drapery.render.encode.changes import FramePatch, changed_patch, with_previous
-from drapery.render.encode.delays import frame_delays
 
 if TYPE_CHECKING:
     from drapery.render.encode.palette import Matte

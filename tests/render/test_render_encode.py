@@ -15,8 +15,8 @@ from PIL import Image, ImageSequence
 
 from drapery.comparison import read_picture
 from drapery.errors import BackendError, OptionError, OutputError
+from drapery.file_formats import frame_delays
 from drapery.render.encode import avif, save_animation, save_frame
-from drapery.render.encode.delays import frame_delays
 from drapery.render.encode.palette import ColourTable, median_cut, over_matte, reduced
 from drapery.render.encode.quick_png import quick_png_bytes
 from drapery.render.frame import Animation, Frame

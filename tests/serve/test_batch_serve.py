@@ -17,8 +17,7 @@ from starlette.testclient import TestClient
 
 from drapery import Banner, animate, draw
 from drapery.batch.manifest import PictureRequest
-from drapery.batch.pool import JobLimits
-from drapery.batch.warmup import warm_up
+from drapery.batch.pool import JobLimits, warm_up
 from drapery.comparison import read_picture
 from drapery.errors import OptionError
 from drapery.file_formats import FileFormat, formats_of

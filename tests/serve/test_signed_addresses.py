@@ -11,7 +11,7 @@ from conftest import Run
 from served_pictures import opened
 from starlette.testclient import TestClient
 
-from drapery.batch.warmup import warm_up
+from drapery.batch.pool import warm_up
 from drapery.errors import OptionError
 from drapery.serve.app import make_app
 from drapery.serve.signatures import check_secret, sign_address
