@@ -87,30 +87,23 @@ class Piece:
         if self.finer is not None:
             return cover_curves(self.finer, self.grid_shape, positions, normals, self.thickness)
         thick = self.shell.cover(positions, normals, self.thickness)
-        return faceted(thick, _corners(self.shell)) if self.facets else thick
+        return _faceted(thick, self.shell) if self.facets else thick
 
 
-def faceted(mesh: Mesh, flat: "FlatCorners") -> Mesh:
+def _faceted(mesh: Mesh, shell: Shell) -> Mesh:
     """The same surface, each triangle with vertices and a normal of its own."""
-    points = mesh.positions[flat.corners]
+    corners, triangles, uvs = _corners(shell)
+    points = mesh.positions[corners]
     a, b, c = points[0::3], points[1::3], points[2::3]
     across = np.cross(b - a, c - a)
     length = np.sqrt((across * across).sum(axis=-1, keepdims=True))
     normals = np.repeat(across / np.maximum(length, 1e-12), 3, axis=0)
-    return Mesh(points, normals, flat.triangles, flat.uvs)
-
-
-@dataclass(frozen=True, eq=False)
-class FlatCorners:
-    """The constant part of a surface of facets: the vertex of each corner, shape [3 T]."""
-
-    corners: NDArray[np.int32]
-    triangles: Triangles
-    uvs: Array
+    return Mesh(points, normals, triangles, uvs)
 
 
 @lru_cache(maxsize=64)
-def _corners(shell: Shell) -> FlatCorners:
+def _corners(shell: Shell) -> tuple[NDArray[np.int32], Triangles, Array]:
+    """The vertex of each corner of a shell, [3 T], and the triangles and UVs of its facets."""
     corners = shell.triangles.reshape(-1)
     triangles = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
-    return FlatCorners(corners, triangles, shell.uvs[corners])
+    return corners, triangles, shell.uvs[corners]
