@@ -128,3 +128,10 @@ def test_the_container_installs_what_the_gate_installs() -> None:
     command = container["postCreateCommand"]
     assert ".[dev,docs]" in command
     assert ".[dev,docs]" in (ROOT / ".ci" / "run").read_text("utf-8")
+
+
+def test_the_archive_for_npm_is_named_after_the_version() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    texts = [path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md")]
+    found = {name for text in texts for name in re.findall(r"drapery-banner-[^ `/]*\.tgz", text)}
+    assert found == {f"drapery-banner-{project['version']}.tgz"}
