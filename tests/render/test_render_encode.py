@@ -17,7 +17,7 @@ from drapery.comparison import read_picture
 from drapery.errors import BackendError, OptionError, OutputError
 from drapery.file_formats import frame_delays
 from drapery.render.encode import avif, save_animation, save_frame
-from drapery.render.encode.palette import ColourTable, median_cut, over_matte, reduced
+from drapery.render.encode.palette import ColourTable, over_matte, reduced, variance_cut
 from drapery.render.encode.quick_png import quick_png_bytes
 from drapery.render.frame import Animation, Frame
 
@@ -466,7 +466,15 @@ def test_a_palette_never_has_more_than_256_entries() -> None:
     counts = random.integers(1, 100_000, 5000)
     palette, place = reduced(colours, counts)
     assert len(palette) <= 256 and place.max() < len(palette) and place[0] == 0
-    assert len(median_cut(colours, counts, 17)) <= 17
+    assert len(variance_cut(colours, counts, 17)) == 17
+
+
+def test_a_palette_has_the_weighted_means_of_groups_that_are_far_apart() -> None:
+    reds = np.array([0, 10, 200, 202, 200])
+    colours = np.stack([reds, 0 * reds, 0 * reds], axis=-1).astype(np.uint8)
+    palette = variance_cut(colours, np.array([3, 1, 1, 1, 0]), 2)
+    assert sorted(palette.tolist()) == [[3, 0, 0], [201, 0, 0]]
+    assert len(variance_cut(colours, np.array([3, 1, 1, 1, 1]), 9)) == 4
 
 
 def test_fraction_rates_are_exact_in_apng(tmp_path: Path) -> None:
