@@ -17,10 +17,6 @@ ROUNDS = 3
 """How often `snap_angles` goes around a loop: after that the end leads to the start."""
 UPRIGHT = 0.7
 """A held row whose unit vector has a larger upward part stands upright, as at a flag's pole."""
-LEAST_POSES = 4
-"""So many poses a loop has at least, if it has as many frames."""
-CALMED = 8
-"""With so many more frames of a loop `calm` reaches one frame farther."""
 SEAM = 3.0
 """A motion whose end is so many times as far from its start as its frames are apart is no loop."""
 
@@ -33,9 +29,9 @@ def hold(
 ) -> Array:
     """Show each pose for several frames, as hand-drawn animation does. A still does not change.
 
-    A loop has at least four poses, or a pose for each of its frames if those are fewer.
+    A loop has at least four poses, or one for each frame.
     """
-    every = min(every, max(1, len(positions) // LEAST_POSES))
+    every = min(every, max(1, len(positions) // 4))
     return positions[np.arange(len(positions)) // every * every]
 
 
@@ -47,11 +43,10 @@ def calm(
 ) -> Array:
     """Slow folds: each pose is a mean of those around it, which count less the farther they are.
 
-    What comes and goes within a few frames, such as a ripple and the shade on it, is gone. A still
-    does not change, nor does a loop of fewer than eight frames.
+    Ripples, and shades on them, do not come and go. A loop of fewer than eight frames stays.
     """
     count = len(positions)
-    reach = min(frames, 1 + count // CALMED)
+    reach = min(frames, 1 + count // 8)
     places, total = np.arange(count), reach * positions
     for away in range(1, reach):
         for beside in (places - away, places + away):

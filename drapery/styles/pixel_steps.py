@@ -22,8 +22,6 @@ GREY = 9
 """The square of the distance of two greys that are a level apart; see `_distances`."""
 PASSES = 4
 """How often `steady` goes around a loop before it stops waiting for the end to meet the start."""
-QUARTERS = 4
-"""A loop is so many times as long as the time that `steady` looks ahead, or longer."""
 
 Item = TypeVar("Item", bound=np.generic)
 
@@ -127,8 +125,7 @@ def steady(
     do not creep to and fro, and thin things that only flit over a pixel are not shown. It keeps
     what lies in the pixel with the colour. Loops have no seam.
 
-    It is at most a quarter of a loop: cloth that swings comes back to each place, and would stand
-    still in a loop of a few frames.
+    They are at most a quarter of a loop: cloth that swings would stand still in a short one.
     """
     words = np.stack([canvas.words() for canvas in canvases])
     words[words < VISIBLE] = 0
@@ -139,7 +136,7 @@ def steady(
 def _steady_sources(words: Words, frames: int) -> NDArray[np.intp]:
     """The frame whose colour each pixel shows. words and result: shape [F, H, W]."""
     count, rows = len(words), np.indices(words.shape[1:])
-    frames = min(frames, max(1, count // QUARTERS))
+    frames = min(frames, max(1, count // 4))
     source = np.zeros(words.shape[1:], np.intp)
     sources = np.zeros(words.shape, np.intp)
     for _ in range(PASSES):
