@@ -8,6 +8,7 @@ is compiled as numba does it: entry points, since Python or an address may call 
 functions of others.
 numba also compiles a function again for each literal, and for each width of an integer, that a
 kernel calls it with. Here a kernel has one compilation for all of them.
+An error names no place in the sources: its path would be in the code of wheels and pages.
 No garbage is collected meanwhile: a compilation makes millions of objects that live to its end.
 
 Importing this module changes the code generator of this process. The import raises AttributeError
@@ -19,16 +20,18 @@ import gc
 from collections.abc import Iterator
 from typing import Any
 
-from numba.core import codegen, dispatcher, event, types
+from numba.core import callconv, codegen, dispatcher, event, types
 from numba.core.registry import cpu_target
 
 _Dispatcher: Any = dispatcher.Dispatcher
+_Convention: Any = callconv.CPUCallConv
 _types: Any = types
 _codegen: Any = codegen
 _event: Any = event
 _generator: Any = cpu_target.target_context.codegen()
 _set_environment = _generator.set_env
 _call_template = _Dispatcher.get_call_template
+_describe_error = _Convention.build_excinfo_struct
 
 _open: list[Any] = []
 """numba's objects of the functions that are being compiled, the outermost first."""
@@ -109,6 +112,12 @@ def _plain_call_template(function: Any, arguments: Any, named: Any) -> Any:
     return _call_template(function, arguments, named)
 
 
+def _describe_without_place(convention: Any, kind: Any, words: Any, place: Any, name: Any) -> Any:
+    """numba's description of an error; in kernels without the place that raises it."""
+    ours = bool(_open) and hasattr(_open[0], "is_inner")
+    return _describe_error(convention, kind, words, None if ours else place, name)
+
+
 class _Compilations(_event.Listener):  # type: ignore[misc]
     """Follows which functions are compiled; collects no garbage until the outermost one is."""
 
@@ -142,4 +151,5 @@ _check_numba()
 _generator._library_class = KernelLibrary
 _generator.set_env = _set_environment_later
 _Dispatcher.get_call_template = _plain_call_template
+_Convention.build_excinfo_struct = _describe_without_place
 _event.register("numba:compile", _Compilations())

@@ -13,7 +13,9 @@ from numba.core import codegen, event
 from numba.core.errors import TypingError
 
 from drapery import jit
+from drapery.aot.arguments import pack
 from drapery.jit import address_of, call_by_address, entry_point, kernel
+from drapery.jit_codegen import compile_kernel, types_of
 
 ROW = np.arange(5.0)
 
@@ -50,6 +52,11 @@ def checks(number: int) -> int:
     return checked(number)
 
 
+@entry_point
+def reshapes(row: Any, count: int) -> Any:
+    return row.reshape((count, 1))[0, 0]
+
+
 @kernel
 def chosen(row: Any, at: Any, ends: Any, whole: Any) -> Any:
     return row[at] + row[ends[1]] if whole else row[at]
@@ -73,6 +80,7 @@ def compiled_here(monkeypatch: pytest.MonkeyPatch) -> None:
         outermost,
         checked,
         checks,
+        reshapes,
         chosen,
         chooses,
     ):
@@ -112,6 +120,17 @@ def test_a_kernel_is_compiled_once_for_literals_and_all_widths_of_integers() -> 
     assert [str(each) for each in chosen.dispatcher.overloads] == [
         "(Array(float64, 1, 'C', False, aligned=True), int64, UniTuple(int64, 2), bool)"
     ]
+
+
+def test_code_holds_no_path_of_the_machine_that_compiled_it() -> None:
+    """Errors of our kernels and of numba's functions name no file."""
+    for function, arguments in ((checks, (3,)), (reshapes, (ROW, 5))):
+        parameters = types_of(arguments)
+        made = compile_kernel(function, pack(arguments).types, parameters)
+        for part in made.parts:
+            assert b".py" not in part
+    with pytest.raises(ValueError, match="total size"):
+        reshapes(ROW, 4)
 
 
 def test_an_error_of_an_inner_function_comes_out() -> None:

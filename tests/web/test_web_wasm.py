@@ -1,6 +1,7 @@
 """The kernels as WebAssembly: a page moves cloth with the bits of Python."""
 
 import json
+import re
 import shutil
 import subprocess
 from hashlib import sha256
@@ -45,6 +46,10 @@ def digest(*arrays: Any) -> str:
     return sha256(
         b"".join(np.ascontiguousarray(a, np.float32).tobytes() for a in arrays)
     ).hexdigest()
+
+
+def test_the_module_holds_no_path_of_the_machine_that_compiled_it() -> None:
+    assert not re.search(rb"[/\\\\]\w+\.py", built_module())
 
 
 @pytest.mark.parametrize("placement", ["standing", "wall"])
