@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.exact import inverse
 from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
 
@@ -108,7 +107,7 @@ def dense_filter(cloth: Cloth, dt: float) -> Array:
     H = np.zeros((count, count))
     rows, columns, values = hessian(cloth, dt)
     np.add.at(H, (rows, columns), values)
-    return inverse(np.eye(count) - dt**2 * cloth.inv_mass[:, None] * H)
+    return _inverse(np.eye(count) - dt**2 * cloth.inv_mass[:, None] * H)
 
 
 def band_filter(cloth: Cloth, dt: float) -> BandFilter:
@@ -305,7 +304,7 @@ def _release(V: Array, U: Array, spectrum: Array, pins: NDArray[np.int64], hangs
         down = (V[:, :, None] * waves[None]).sum(1)
         columns.append((down[:, None] * U[None]).sum(-1).reshape(-1, 1))
     W = np.concatenate(columns, axis=1)
-    release: Array = -(W[:, :, None] * inverse(W[pins])[None]).sum(1)
+    release: Array = -(W[:, :, None] * _inverse(W[pins])[None]).sum(1)
     return release
 
 
@@ -357,3 +356,20 @@ def _hanging(count: int) -> tuple[Array, Array]:
 def _normal(vectors: Array) -> Array:
     normal: Array = vectors / np.sqrt((vectors * vectors).sum(axis=0))
     return normal
+
+
+def _inverse(A: Array) -> Array:
+    """Inverse of a diagonally dominant matrix [N, N], by Gauss-Jordan without pivoting.
+
+    It has the same bits on every machine; LAPACK's kernels depend on the processor.
+    """
+    A = A.astype(np.float64)
+    B = np.eye(len(A))
+    for pivot in range(len(A)):
+        B[pivot] /= A[pivot, pivot]
+        A[pivot] /= A[pivot, pivot]
+        factors = A[:, pivot].copy()
+        factors[pivot] = 0.0
+        B -= factors[:, None] * B[pivot]
+        A -= factors[:, None] * A[pivot]
+    return B

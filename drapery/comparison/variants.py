@@ -51,10 +51,6 @@ class Variant:
         """The picture, or the first frame of a loop, with 8 bits a channel."""
         return Frame(eight_bits(self.picture.frames[0]))
 
-    @property
-    def layer_count(self) -> int:
-        return 0 if self.banner is None else len(self.banner.layers)
-
 
 def variant_of(
     label: str, subject: "Banner | Frame", settings: Settings | None, options: Options
