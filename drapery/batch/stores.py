@@ -162,9 +162,9 @@ def _file_system(url: str) -> tuple[Any, str]:
 
         fs, root = url_to_fs(url)
     except ImportError as error:
-        # fsspec names the library that an address needs: "Install s3fs to access S3".
-        reason = f"{error.name} is missing; install it" if error.name else str(error)
-        raise OutputError(f"{url}: {reason}") from None
+        # The cause of fsspec's own error names the library that an address needs.
+        missing = error.name or getattr(error.__cause__, "name", None) or "fsspec"
+        raise OutputError(f"{url}: {missing} is missing; install it") from None
     except Exception as error:
         raise OutputError(f"{url} cannot be opened: {_why(error)}") from None
     return fs, str(root)

@@ -129,7 +129,7 @@ def test_no_bucket_is_made_where_the_address_has_a_typo(monkeypatch: pytest.Monk
 
 def test_the_library_that_an_address_needs_is_named() -> None:
     fsspec.register_implementation("far", "no_library.Far", errtxt="Install far-fs to access Far")
-    with pytest.raises(OutputError, match=r"^far://bucket/x: Install far-fs to access Far$"):
+    with pytest.raises(OutputError, match=r"^far://bucket/x: no_library is missing; install it$"):
         open_store("far://bucket/x")
 
 
