@@ -121,7 +121,8 @@ def variance_cut(colours: Colours, counts: NDArray[np.int64], size: int) -> Colo
         for part in (group[below], group[~below]):
             heappush(groups, (*_cut(colours[part], weights[part]), int(part[0]), part))
     parts = [part for *_, part in groups]
-    means = [weights[part] @ colours[part] / weights[part].sum() for part in parts]
+    sums = [(weights[part, None] * colours[part]).sum(axis=0) for part in parts]
+    means = [each / weights[part].sum() for each, part in zip(sums, parts, strict=True)]
     return np.floor(np.array(means[:size]) + 0.5).astype(np.uint8).reshape(-1, 3)
 
 
