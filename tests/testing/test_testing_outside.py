@@ -11,9 +11,7 @@ import pytest
 from PIL import Image
 
 from drapery.banner.packs import open_packs
-from release.build import MAX_WHEEL, size_of_sources
-
-ROOT = Path(__file__).parents[2]
+from release.build import MAX_WHEEL, copy_sources, size_of_sources
 
 PROJECT_TEST = """
 from drapery import Banner, draw
@@ -31,8 +29,10 @@ Pytest = Callable[..., subprocess.CompletedProcess[str]]
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The wheel of what git knows: setuptools adds what an earlier build left in `build/`."""
     folder = tmp_path_factory.mktemp("wheel")
-    words = ["--no-deps", "--no-build-isolation", "-w", folder, ROOT]
+    copy_sources(folder / "source", with_built=False)
+    words = ["--no-deps", "--no-build-isolation", "-w", folder, folder / "source"]
     command = [sys.executable, "-m", "pip", "wheel", "-q", *words]
     subprocess.run(command, check=True)
     (built,) = folder.glob("*.whl")
