@@ -11,8 +11,7 @@ from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.stack import PackLike
 from drapery.errors import DesignError, OptionError
 from drapery.option import Output, one_of
-from drapery.render.frame import Animation, Frame
-from drapery.render.resize import enlarge
+from drapery.render.frame import Animation, Frame, enlarge
 from drapery.render.scene import Scene
 from drapery.settings import Options, Settings, check_format, frame_count, settled_for
 

@@ -5,8 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from drapery.arrays import Pixels
+from drapery.errors import OptionError
 
-__all__ = ["Animation", "Frame", "Pixels"]
+__all__ = ["Animation", "Frame", "Pixels", "enlarge"]
+
+MAX_SIDE = 16384
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,3 +56,17 @@ class Animation:
         from drapery.render.encode import save_animation
 
         save_animation(self.frames, self.fps, path, quality=quality)
+
+
+def enlarge(frame: Frame, times: int) -> Frame:
+    """The frame with each pixel as a square of times x times pixels.
+
+    Raises OptionError if the result would be wider or higher than MAX_SIDE.
+    """
+    height, width = frame.pixels.shape[:2]
+    if times < 1 or max(height, width) * times > MAX_SIDE:
+        raise OptionError(
+            f"a picture of {width}x{height} cannot be enlarged {times} times;"
+            f" use 1 to {max(1, MAX_SIDE // max(height, width))}"
+        )
+    return Frame(frame.pixels.repeat(times, axis=0).repeat(times, axis=1))

@@ -16,7 +16,7 @@ from drapery.comparison.painting import (
 from drapery.comparison.tolerance import EXACT, Tolerance
 from drapery.render import Frame, contact_sheet
 from drapery.render.contact_images import checkered
-from drapery.render.resize import enlarge
+from drapery.render.frame import enlarge
 
 
 def difference_panel(

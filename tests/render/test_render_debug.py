@@ -17,10 +17,9 @@ from drapery.render.debug import (
     springs_model,
     stretch_model,
 )
-from drapery.render.frame import Frame
+from drapery.render.frame import Frame, enlarge
 from drapery.render.light import GAME_LIGHT, UNLIT, lit_at
 from drapery.render.lines import dot_model, line_model
-from drapery.render.resize import enlarge
 from drapery.render.scene import Material, Model, Scene
 from drapery.render.shadow import contact_shadow
 from drapery.render.soft import draw_scene

@@ -9,6 +9,7 @@ from drapery.option import Subject
 from drapery.scenes import find_scene, scene_names
 from drapery.settings import OPTIONS, applicable
 from drapery.studio.chosen_scene import what_follows
+from drapery.studio.components import ViewerElement
 from drapery.studio.descriptions import named, view_title
 from drapery.studio.file_field import FileField
 from drapery.studio.live_threads import in_thread
@@ -17,7 +18,6 @@ from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import ExportRequest, drawn_garment
 from drapery.studio.translation import translated
-from drapery.studio.viewer import ViewerElement
 from drapery.studio.widgets import (
     SegmentedControl,
     button,
