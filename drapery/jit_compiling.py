@@ -18,6 +18,7 @@ those that are open belongs to one thread at a time.
 
 import gc
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 from numba.core import callconv, codegen, dispatcher, event, types
@@ -32,6 +33,7 @@ _generator: Any = cpu_target.target_context.codegen()
 _set_environment = _generator.set_env
 _call_template = _Dispatcher.get_call_template
 _describe_error = _Convention.build_excinfo_struct
+_FOLDER = str(Path(callconv.__file__).parents[1])
 
 _open: list[Any] = []
 """numba's objects of the functions that are being compiled, the outermost first."""
@@ -113,8 +115,8 @@ def _plain_call_template(function: Any, arguments: Any, named: Any) -> Any:
 
 
 def _describe_without_place(convention: Any, kind: Any, words: Any, place: Any, name: Any) -> Any:
-    """numba's description of an error; in kernels without the place that raises it."""
-    ours = bool(_open) and hasattr(_open[0], "is_inner")
+    """numba's description of an error, without its place in kernels and in numba's functions."""
+    ours = (_open and hasattr(_open[0], "is_inner")) or f"{place}".startswith(_FOLDER)
     return _describe_error(convention, kind, words, None if ours else place, name)
 
 
