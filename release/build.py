@@ -4,7 +4,7 @@ The bytes are the same on every run with the same Python: the times of all files
 SOURCE_DATE_EPOCH, by default the time of the last commit. With `--platform`, as
 manylinux_2_17_x86_64, only a wheel is built, which holds the kernels that `python -m
 release.kernels` and `python -m drapery.web.wasm.build` have compiled before; without it they are
-left out. A wheel that is over 1.57 MB without them and `drapery.web` is an error.
+left out. A wheel that is over 1.58 MB without them and `drapery.web` is an error.
 """
 
 import argparse
