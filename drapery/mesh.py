@@ -73,7 +73,11 @@ def grid_surface(rows: int, columns: int) -> tuple[Triangles, UVs]:
 
 
 def face_normals(positions: Vectors, triangles: Triangles) -> Vectors:
-    """Triangle normals, shape [..., T, 3], with length twice the triangle's area [m²]."""
+    """Triangle normals, shape [..., T, 3], with length twice the triangle's area [m²].
+
+    positions: [m], shape [..., V, 3].
+    triangles: vertex indices, shape [T, 3].
+    """
     a, b, c = (positions[..., triangles[:, corner], :] for corner in range(3))
     return np.cross(b - a, c - a)
 
@@ -82,6 +86,9 @@ def vertex_normals(positions: Vectors, triangles: Triangles) -> Vectors:
     """Unit normals, shape [..., V, 3]: the average of the faces at a vertex, weighted by area.
 
     A vertex without area around it gets (0, 0, 1), never NaN.
+
+    positions: [m], shape [..., V, 3].
+    triangles: vertex indices, shape [T, 3].
     """
     return normals_around(positions, triangles, faces_around(triangles, positions.shape[-2]))
 

@@ -29,11 +29,12 @@ def draw(
     settings: Settings | None = None,
     **options: Unpack[Options],
 ) -> Frame:
-    """Draw a banner as cloth.
+    """Draw a banner as cloth. Options of a garment's file count where no argument gives others.
 
     banner: a banner, shield or `Garment`; None for a cape or elytra, whose texture is an option.
-    settings, options: options of the picture, see `Settings`; `options` override `settings`.
-    Those of a garment's file count where neither gives others.
+    settings: the options of the picture; by default `Settings()`.
+    options: fields of `Settings` by name, which override those of `settings`.
+
     Raises DesignError if `banner` is something else, OptionError, PackError or BackendError.
     """
     design, chosen = _checked(banner, settings, options, "still")
@@ -54,8 +55,14 @@ def animate(
 ) -> Animation:
     """Draw a banner waving in the wind, as a seamless loop.
 
-    banner, settings, options: see `draw`. A model that does not wave is shown from all sides.
-    seconds, fps: length of the loop [s] and its frames per second.
+    A model that does not wave is shown from all sides.
+
+    banner: what to draw, see `draw`.
+    settings: the options of the pictures, see `draw`.
+    seconds: length of the loop [s].
+    fps: [frames/s].
+    options: fields of `Settings` by name, which override those of `settings`.
+
     Raises DesignError if `banner` is something else, OptionError, PackError or BackendError.
     """
     frames = iter_frames(banner, settings, seconds=seconds, fps=fps, **options)
@@ -74,9 +81,16 @@ def iter_frames(
     """The frames of `animate`, each drawn when the iterator reaches it.
 
     All arguments are checked, all packs opened, and all cloth moved, before this returns.
+
+    banner: what to draw, see `draw`.
+    settings: the options of the pictures, see `draw`.
+    seconds: length of the loop [s].
+    fps: [frames/s].
     on_moment: called at each moment of the cloth's motion with its number and the number of the
-    last one; it may raise to end the work.
-    Raises the errors of `animate`.
+        last one; it may raise to end the work.
+    options: fields of `Settings` by name, which override those of `settings`.
+
+    Raises DesignError, OptionError, PackError or BackendError, as `animate` does.
     """
     from drapery.scenes.subjects import loop
 
@@ -100,12 +114,18 @@ def save_model(
 ) -> None:
     """Write a banner as a 3-D file: a GLB waves, the other formats hold one pose.
 
-    banner, settings, options: see `draw`; the ground is not written.
-    seconds: length of the loop [s]; 0 for one pose. fps: its frames per second.
+    banner: what to write, see `draw`; the ground is not written.
+    path: the file; its ending selects the format.
+    settings: the options of the model, see `draw`.
+    seconds: length of the loop [s]; 0 for one pose.
+    fps: [frames/s] of the loop.
     origin: that of the file: the lowest corner of the block in which a banner stands, to the west
-    and north, or the middle of the block's floor.
-    progress: called with the number of finished frames and of all. on_moment: see `iter_frames`.
-    Both may raise to end the work, and then there is no file.
+        and north, or the middle of the block's floor.
+    progress: called with the number of finished frames and of all; it may raise to end the work,
+        and then there is no file.
+    on_moment: see `iter_frames`; it may raise as `progress` may.
+    options: fields of `Settings` by name, which override those of `settings`.
+
     Raises DesignError if `banner` is something else, OptionError, PackError or OutputError.
     """
     from drapery.render.encode import check_target
@@ -139,9 +159,14 @@ def draw_face(
 ) -> Frame:
     """The plain face of a banner, 20 x 40 texels, or of a shield, 12 x 22.
 
-    scale: how many pixels wide a texel of a 64 x 64 pack is. packs, format: as in `Settings`.
+    banner: the design.
+    packs: resource packs, see `open_packs`.
+    format: pack format of the game's version, see `open_packs`.
+    scale: the width of a texel of a 64 x 64 pack [pixels].
+    side: of the cloth, or of the shield.
     kind: whose face; auto takes it from the design.
-    Raises OptionError or PackError.
+
+    Raises OptionError for a wrong argument, PackError for a pack that cannot be used.
     """
     check_format(format)
     opened = open_packs(packs, format=format)

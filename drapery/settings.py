@@ -176,11 +176,14 @@ def _with_given(made: Any) -> Any:
 @_with_given
 @dataclass(frozen=True)
 class Settings:
-    """Checked options of a picture. Raises OptionError that names the option and its limits.
+    """Checked options of a picture.
 
-    given: the names of those that were given, and of all that differ from their default.
     An option whose default depends on others has the value that counts when it is read; `changed`
     makes it anew unless it was given, and `dataclasses.replace` keeps it.
+
+    given: the names of those that were given, and of all that differ from their default.
+
+    Raises OptionError that names the option and its limits.
     """
 
     packs: PackLike | Sequence[PackLike] = _option(

@@ -4,7 +4,7 @@ The bytes are the same on every run with the same Python: the times of all files
 SOURCE_DATE_EPOCH, by default the time of the last commit. With `--platform`, as
 manylinux_2_17_x86_64, only a wheel is built, which holds the kernels that `python -m
 release.kernels` and `python -m drapery.web.wasm.build` have compiled before; without it they are
-left out. A wheel that is over 1.58 MB without them and `drapery.web` is an error.
+left out. A wheel that is over 1.65 MB without them and `drapery.web` is an error.
 """
 
 import argparse
@@ -21,8 +21,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-MAX_WHEEL = 1_580_000
-"""The most bytes of a wheel, see `size_of_sources`; its modules alone take 1 MB."""
+MAX_WHEEL = 1_650_000
+"""The most bytes of a wheel, see `size_of_sources`; its modules alone take 1 MB.
+
+Of these, docstrings that describe each parameter in a line of its own take 0.05 MB.
+"""
 LEFT_OUT = ("drapery/web/", "drapery/aot/kernels-")
 NOT_SOURCES = {
     "drapery/aot/kernels-*": "release.kernels",

@@ -16,11 +16,13 @@ Vector = tuple[float, float, float]
 class Camera:
     """A camera.
 
-    position, target: of the camera and of the point that it looks at [m]; they must differ.
+    position: place of the camera [m].
+    target: the point that it looks at [m], another than `position`.
     up: the direction that is up in the picture, not parallel to the line of sight.
     fov: vertical field of view [degrees]; used where `height` is None.
     height: vertical extent of an orthographic picture [m]; None for perspective.
-    near, far: the clipping planes' distances [m].
+    near: distance of the near clipping plane [m].
+    far: distance of the far clipping plane [m].
     """
 
     position: Vector
@@ -59,7 +61,11 @@ def _axes(camera: Camera) -> Matrices:
 
 
 def projection_matrix(camera: Camera, aspect: float) -> Matrices:
-    """Eye space to OpenGL clip space (z in -w..w), shape [4, 4]; aspect is width / height."""
+    """Eye space to OpenGL clip space (z in -w..w), shape [4, 4].
+
+    camera: the camera of the picture.
+    aspect: width / height of the picture.
+    """
     near, far = camera.near, camera.far
     matrix = np.zeros((4, 4))
     if camera.height is None:
@@ -81,9 +87,12 @@ def projection_matrix(camera: Camera, aspect: float) -> Matrices:
 
 
 def clip_matrix(camera: Camera, size: tuple[int, int]) -> Matrices:
-    """World to clip space for a picture of this width and height, shape [4, 4].
+    """World to clip space, shape [4, 4]. Its products are summed in a fixed order.
 
-    Its products are summed in a fixed order. Raises OptionError for a camera that spans no view.
+    camera: the camera of the picture.
+    size: width and height of the picture [pixels].
+
+    Raises OptionError for a camera that spans no view.
     """
     eye, lens = view_matrix(camera), projection_matrix(camera, size[0] / size[1])
     matrix = np.asarray(sum(lens[:, k, None] * eye[k] for k in range(4)))

@@ -25,7 +25,8 @@ from drapery.render.frame import Frame
 def contact_sheet(pictures: Sequence[tuple[str, Pixels]], columns: int | None = None) -> Frame:
     """Labelled pictures in rows on a light background.
 
-    pictures: labels and pixels, of any sizes. columns: pictures in a row; None is one row.
+    pictures: labels and pixels, of any sizes.
+    columns: pictures in a row; None is one row.
     """
     columns = columns or len(pictures)
     rows = -(-len(pictures) // columns)

@@ -31,7 +31,14 @@ RAMP = np.array(
 def edges_model(
     mesh: Mesh, camera: Camera, height: int, colour: ArrayLike = INK, width: float = 1.0
 ) -> Model:
-    """The edges of a mesh, each once. height: of the picture [pixels]; width: [pixels]."""
+    """The edges of a mesh, each once.
+
+    mesh: positions [m], shape [V, 3].
+    camera: of the picture.
+    height: of the picture [pixels].
+    colour: straight-alpha sRGB.
+    width: of the lines [pixels].
+    """
     points, triangles = _points(mesh)
     edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     return line_model(points, np.unique(edges, axis=0), colour, camera, height, width)
@@ -47,7 +54,12 @@ def springs_model(
 ) -> Model:
     """Springs as lines, in KIND_COLOURS by their kind.
 
-    positions: [m], shape [N, 3]; pairs: particle indices, shape [S, 2]; kinds: shape [S].
+    positions: [m], shape [N, 3].
+    pairs: particle indices, shape [S, 2].
+    kinds: of springs, see `drapery.cloth.Cloth`, shape [S].
+    camera: of the picture.
+    height: of the picture [pixels].
+    width: of the lines [pixels].
     """
     # Flexion springs overlap structural ones, which are drawn last so that they are visible.
     order = np.argsort(-kinds.astype(np.int64), kind="stable")
@@ -56,14 +68,27 @@ def springs_model(
 
 
 def pins_model(positions: Vectors, inv_mass: Floats, camera: Camera, height: int) -> Model:
-    """A dot on each pinned particle: those whose inverse mass [N] is 0."""
+    """A dot on each pinned particle.
+
+    positions: [m], shape [N, 3].
+    inv_mass: inverse masses [1/kg], shape [N]; 0 is pinned.
+    camera: of the picture.
+    height: of the picture [pixels].
+    """
     return dot_model(positions[inv_mass == 0], PIN_RED, camera, height, 7.0)
 
 
 def normals_model(
     mesh: Mesh, length: float, camera: Camera, height: int, colour: ArrayLike = NORMAL_BLUE
 ) -> Model:
-    """The normal at each vertex as a line of this length [m]."""
+    """The normal at each vertex as a line.
+
+    mesh: positions [m], shape [V, 3].
+    length: of the lines [m].
+    camera: of the picture.
+    height: of the picture [pixels].
+    colour: straight-alpha sRGB.
+    """
     feet = mesh.positions.reshape(-1, 3)
     points = np.concatenate([feet, feet + length * mesh.normals.reshape(-1, 3)])
     numbers = np.arange(len(feet))
@@ -74,7 +99,9 @@ def normals_model(
 def stretch_model(mesh: Mesh, stretch: Floats, limit: float = 0.1) -> Model:
     """The mesh coloured by a number at each vertex, in the colours of RAMP.
 
-    stretch: shape [V]; -limit and less is the first colour, 0 the middle, limit the last.
+    mesh: positions [m], shape [V, 3].
+    stretch: the numbers, shape [V].
+    limit: -limit and less is the first colour, 0 the middle, limit the last.
     """
     u = np.clip(stretch / (2 * limit) + 0.5, 0, 1)
     uvs = np.stack([u, np.full_like(u, 0.5)], axis=-1)
@@ -85,8 +112,9 @@ def stretch_model(mesh: Mesh, stretch: Floats, limit: float = 0.1) -> Model:
 def spring_stretch(positions: Vectors, pairs: Pairs, lengths: Floats) -> Floats:
     """The stretch of each spring, shape [S]: its length over its rest length, less 1.
 
-    positions: [m], shape [N, 3]. pairs: the two particles of each spring, shape [S, 2]. lengths:
-    rest lengths [m], shape [S].
+    positions: [m], shape [N, 3].
+    pairs: the two particles of each spring, shape [S, 2].
+    lengths: rest lengths [m], shape [S].
     """
     between = positions[pairs[:, 1]] - positions[pairs[:, 0]]
     stretch: Array = np.sqrt(dots(between, between)) / lengths - 1
@@ -96,8 +124,9 @@ def spring_stretch(positions: Vectors, pairs: Pairs, lengths: Floats) -> Floats:
 def at_particles(values: Floats, pairs: Pairs, count: int) -> Floats:
     """The value furthest from 0 among the springs at each particle, shape [count].
 
-    values: one a spring, shape [S]. pairs: the two particles of each spring, shape [S, 2]. count:
-    of the particles; one without a spring has 0.
+    values: one a spring, shape [S].
+    pairs: the two particles of each spring, shape [S, 2].
+    count: of the particles; one without a spring has 0.
     """
     high, low = np.zeros(count), np.zeros(count)
     for end in range(2):

@@ -21,7 +21,10 @@ Colour = str | tuple[int, int, int] | tuple[int, int, int, int]
 
 
 def draw_scene(scene: Scene, backend: str | DrawScene = "auto") -> Frame:
-    """Draw a scene. backend: a name or a function, see `backend`.
+    """Draw a scene.
+
+    scene: what is drawn.
+    backend: a name or a function, see `backend`.
 
     Raises BackendError for a backend that is not known or cannot run, OptionError for sizes,
     textures or meshes that cannot be drawn.
@@ -40,15 +43,22 @@ def draw_models(
     samples: Literal[1, 4, 16] = 4,
     backend: str | DrawScene = "auto",
 ) -> Frame:
-    """Draw models, framed by a view. A mesh without a material is drawn white.
-
-    view: a View or its name in VIEWS, used if `camera` is None. For an animation make one camera
-        with `frame_view` from the points of all its frames.
-    size: width and height [pixels]. samples: 1, 4 or 16 for each pixel.
-    Raises OptionError or BackendError as `draw_scene` and `frame_view` do.
+    """Draw models, framed by a view.
 
         red = make_model(make_mesh(positions, triangles), colour="#b02e26")
         draw_models([red], view="hero").save("red.png")
+
+    models: what is drawn; a mesh without a material is white.
+    view: a View or its name in VIEWS, used if `camera` is None. For an animation make one camera
+        with `frame_view` from the points of all its frames.
+    camera: from where the models are seen; None for the view.
+    size: width and height [pixels].
+    background: colour behind the models.
+    light: the light on all models.
+    samples: 1, 4 or 16 for each pixel.
+    backend: a name or a function, see `backend`.
+
+    Raises OptionError or BackendError as `draw_scene` and `frame_view` do.
     """
     drawn = tuple(make_model(one) if isinstance(one, Mesh) else one for one in models)
     if camera is None:
@@ -68,10 +78,14 @@ def make_model(
 ) -> Model:
     """A mesh, or a batch of meshes, with one material.
 
+    mesh: positions [m], shape [..., V, 3].
     colour: of the whole surface; it multiplies the texture if there is one.
     texture: sRGB, shape [H, W, 3], or with straight alpha [H, W, 4], uint8, top row first. It is
         placed by the mesh's UVs.
-    alpha, lit: as in `Material`. Raises OptionError for a colour or texture of another form.
+    alpha: see `Material`.
+    lit: whether the scene's light changes its colours.
+
+    Raises OptionError for a colour or texture of another form.
     """
     red, green, blue, opacity = rgba(colour)
     texels = np.full((1, 1, 4), 255, np.uint8) if texture is None else np.asarray(texture)

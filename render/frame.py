@@ -21,7 +21,9 @@ class Frame:
     def save(self, path: str | Path, *, quality: int | None = None) -> None:
         """Write the picture in the format of the name's ending, see `drapery.file_formats`.
 
+        path: the file to write.
         quality: of a WebP or AVIF that may lose something, 1 to 100.
+
         Raises OptionError for an ending or a size that no format of pictures has, and for a quality
         that does nothing, OutputError for a file that cannot be written.
         """
@@ -34,7 +36,8 @@ class Frame:
 class Animation:
     """Frames of one size, shown in a loop.
 
-    frames: at least one, in order. fps: frames/s, above 0.
+    frames: at least one, in order.
+    fps: [frames/s], above 0.
     """
 
     frames: tuple[Frame, ...]
@@ -49,7 +52,9 @@ class Animation:
     def save(self, path: str | Path, *, quality: int | None = None) -> None:
         """Write the animation in the format of the name's ending, see `drapery.file_formats`.
 
+        path: the file to write.
         quality: of a WebP or AVIF that may lose something, 1 to 100.
+
         Raises OptionError for an ending or a rate that no such format has and for no frames,
         OutputError for a target that cannot be written, BackendError for a video without PyAV.
         """

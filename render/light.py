@@ -16,7 +16,10 @@ class Light:
     """Directional lights over an ambient floor, as the game shades block entities.
 
     brightness = min(1, ambient + diffuse * sum over lights of max(0, L . n))
+
     directions: towards each light; need not be unit vectors.
+    ambient: brightness where no light falls, 0 to 1.
+    diffuse: brightness that one light adds to a surface that faces it.
     tint: the light's colour, a factor for each of red, green and blue.
     shadows: whether the first direction casts shadows, and less of the other light reaches folds
         and corners. Both backends draw them, on and by lit materials; pyrender only where no
@@ -62,10 +65,13 @@ UNLIT = Light((), 1.0, 0.0)
 def lit_at(light: Light, block: int, sky: int, daylight: float = 1.0) -> Light:
     """The light at a place of the game's world with these light levels.
 
-    block, sky: the game's light levels of torches and of the sky, 0..15.
-    daylight: 1 at noon, 0 at night.
     The brightness of a level is l / (4 - 3 l) with l = level / 15; torches are warm, a night sky is
     blue. The sum of the two colours is limited to 1 and has a small lower bound.
+
+    light: the light where the levels are 15 by day.
+    block: the game's light level of torches, 0..15.
+    sky: the game's light level of the sky, 0..15.
+    daylight: 1 at noon, 0 at night.
     """
     torch, above = (level / 15 / (4 - 3 * level / 15) for level in (block, sky))
     warm = (torch, torch * (0.64 + 0.36 * torch), torch * (0.4 + 0.6 * torch * torch))

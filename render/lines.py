@@ -25,9 +25,12 @@ def line_model(
 ) -> Model:
     """Straight lines of one width in pixels at any distance, in plain colours.
 
-    points: [m], shape [N, 3]; segments: indices into points, shape [S, 2].
+    points: [m], shape [N, 3].
+    segments: indices into points, shape [S, 2].
     colours: straight-alpha sRGB, shape [4] or [S, 4].
-    height: of the picture [pixels]; width: of the lines [pixels].
+    camera: of the picture.
+    height: of the picture [pixels].
+    width: of the lines [pixels].
     """
     ends: Array = points[segments].astype(np.float64)
     along = ends[:, 1] - ends[:, 0]
@@ -43,8 +46,11 @@ def dot_model(
 ) -> Model:
     """Squares of one size in pixels at any distance, which face the camera.
 
-    points: [m], shape [N, 3]; colours: straight-alpha sRGB, shape [4] or [N, 4].
-    height: of the picture [pixels]; width: of the dots [pixels].
+    points: [m], shape [N, 3].
+    colours: straight-alpha sRGB, shape [4] or [N, 4].
+    camera: of the picture.
+    height: of the picture [pixels].
+    width: of the dots [pixels].
     """
     places: Array = points.astype(np.float64)
     towards = _towards(places, camera)

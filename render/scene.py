@@ -20,7 +20,11 @@ class TextureLayer:
 
     A texel becomes round(texel * tint / 255) per channel and is blended over the layers below by
     its 8-bit alpha a: round((a * src + (255 - a) * dst) / 255).
-    normal, specular: LabPBR maps of the same texture, of any size; None is a smooth, matt surface.
+
+    texels: sRGB with straight alpha, shape [H, W, 4], uint8.
+    tint: the colour by which the texels are multiplied.
+    normal: the LabPBR normal map, shape [H, W, 4], of any size; None is a smooth surface.
+    specular: the LabPBR specular map, shape [H, W, 4], of any size; None is a matt surface.
     """
 
     texels: Texels
@@ -38,9 +42,11 @@ class SurfaceDetail:
         light, each over 128 and less one; the fourth is the share of the gloss that it has, of 255.
     repeats: how many tiles lie along a whole u and v.
     gloss: brightness of highlights in full light, 0 to 1.
-    across, along: the share of highlights as of threads along u and along v, which shine all around
-        them; the rest is as of a smooth surface.
-    sharpness: of the highlights: the cosine of the angle to their middle is squared so often.
+    across: the share of highlights as of threads along u, which shine all around them; the rest is
+        as of a smooth surface.
+    along: the same share of threads along v.
+    sharpness: of the highlights: the cosine of the angle to their middle is squared this many
+        times.
     fuzz: how much brighter the surface is where one looks along it.
     """
 
@@ -55,8 +61,9 @@ class SurfaceDetail:
 
 @dataclass(frozen=True, eq=False)
 class Material:
-    """The layers of a surface, lowest first; all share the mesh's UVs, at any size.
+    """The layers of a surface; all share the mesh's UVs, at any size.
 
+    layers: the textures, lowest first.
     alpha: use of the lowest layer's alpha. `opaque` ignores it (the game's solid layer), `cutout`
         does not draw pixels below one half, `blend` blends the surface with the pixels behind it.
     lit: whether the scene's light changes its colours.
@@ -127,7 +134,10 @@ class Scene:
 
     Do not change its arrays in place: prepared data are cached by the identity of the arrays.
 
-    size: width and height in pixels.
+    models: what is drawn, in this order.
+    camera: from where it is seen.
+    size: width and height [pixels].
+    light: the light on all models.
     background: straight-alpha sRGB colour; (0, 0, 0, 0) is transparent.
     samples: 1, 4 or 16 samples a pixel, on a regular grid; 1 is pixel art's hard edge.
     """

@@ -35,9 +35,12 @@ def contact_shadow(
 ) -> Model:
     """A dark quad on the ground under models; draw it after other models that lie on the ground.
 
-    floor: height of the ground [m]. reach: models cast a shadow up to this height above it [m].
+    models: what casts the shadow.
+    floor: height of the ground [m].
+    reach: models cast a shadow up to this height above the ground [m].
     strength: darkness of the shadow under a model that fills all of the reach, 0..1.
     within: the extent of the ground, lowest x and z, then highest [m]; None is endless ground.
+
     Raises OptionError if no model has finite positions.
     """
     parts = [model.mesh.positions.reshape(-1, 3) for model in models]

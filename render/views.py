@@ -39,7 +39,10 @@ VIEWS: dict[str, View] = {
 
 
 def find_view(view: str | View) -> View:
-    """The view of this name; a View is returned as it is. Raises OptionError."""
+    """The view of this name; a View is returned as it is.
+
+    Raises OptionError.
+    """
     if isinstance(view, View):
         return view
     if view not in VIEWS:
@@ -50,18 +53,26 @@ def find_view(view: str | View) -> View:
 def frame_view(view: str | View, points: Vectors, aspect: float, margin: float = 0.05) -> Camera:
     """A camera in the direction of a view that shows all points.
 
-    view: a View, or its name in VIEWS. points: [m], shape [..., 3]; for an animation those of all
-    frames. aspect: width / height of the picture. margin: the free fraction at each side.
+    view: a View, or its name in VIEWS.
+    points: [m], shape [..., 3]; for an animation those of all frames.
+    aspect: width / height of the picture.
+    margin: the free fraction at each side.
+
     Raises OptionError for a name that is not known and for points that are not finite.
     """
     return frame_points(find_view(view), points, aspect, margin)
 
 
 def turntable(view: View, points: Vectors, aspect: float, frames: int) -> list[Camera]:
-    """One camera for each frame, once around points [m] of shape [..., 3], which all stay visible.
+    """One camera for each frame, once around points, which all stay visible.
 
-    The cameras turn about the upright axis through the middle of the points; the first looks in
-    the direction of the view. aspect: width / height of the picture.
+    The cameras turn about the upright axis through the middle of the points.
+
+    view: the direction of the first camera.
+    points: [m], shape [..., 3].
+    aspect: width / height of the picture.
+    frames: number of cameras.
+
     Raises OptionError for points that are not finite.
     """
     points = points.reshape(-1, 3).astype(np.float64)
@@ -97,7 +108,10 @@ def _turned(camera: Camera, axis: Array, degrees: float) -> Camera:
 def frame_points(view: View, points: Vectors, aspect: float, margin: float = 0.05) -> Camera:
     """A camera in the direction of a view that shows all points as large as the margin allows.
 
-    points: [m], shape [..., 3]. aspect: width / height. margin: the free fraction at each side.
+    view: the direction.
+    points: [m], shape [..., 3].
+    aspect: width / height of the picture.
+    margin: the free fraction at each side.
 
     Raises OptionError for points that are not finite.
     """

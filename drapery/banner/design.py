@@ -18,12 +18,12 @@ LOOM_LAYERS = 6
 
 @dataclass(frozen=True)
 class Layer:
-    """One pattern in one dye.
+    """One pattern in one dye. Other known names of a pattern or dye are converted.
 
     pattern: the id without `minecraft:`, or `namespace:path` for a pattern of a data pack.
     dye: one of the sixteen dye names.
 
-    Other known names of a pattern or dye are converted. Raises DesignError for an unknown name.
+    Raises DesignError for an unknown name.
     """
 
     pattern: str
@@ -40,7 +40,9 @@ class Layer:
 class Banner:
     """A design: its base dye and up to sixteen layers, lowest first.
 
-    base: one of the sixteen dye names. layers: of Layer. kind: a banner or a shield.
+    base: one of the sixteen dye names.
+    layers: lowest first.
+    kind: a banner or a shield.
 
     Raises DesignError for an unknown dye, a layer that is not a Layer, or more than sixteen.
     """

@@ -29,9 +29,16 @@ def grid(
 ) -> Cloth:
     """A rectangular cloth. Its top edge is at y = 0 and it faces +z.
 
-    columns, rows: particles across and down; particles are numbered row by row from the top left.
-    width, height: [m], up to 1e6. pins: see `pinned_particles`. fabric: the material; its mass is
-    shared evenly by the particles. Raises OptionError.
+    Particles are numbered row by row from the top left.
+
+    columns: particles across, 2 or more.
+    rows: particles down, 2 or more.
+    width: [m], up to 1e6.
+    height: [m], up to 1e6.
+    pins: see `pinned_particles`.
+    fabric: the material; its mass is shared evenly by the particles.
+
+    Raises OptionError for numbers out of range.
     """
     check_fabric(fabric)
     for name, count in (("columns", columns), ("rows", rows)):
@@ -72,8 +79,15 @@ def strip(
 ) -> Cloth:
     """A line of particles along +x from the origin: a ribbon, a rope, a chain.
 
-    It has no faces, so wind does not move it. count: particles, 2 or more. length: [m]. width:
-    of the ribbon [m]; it changes only the mass. pins, fabric: as `grid`. Raises OptionError.
+    It has no faces, so wind does not move it.
+
+    count: particles, 2 or more.
+    length: [m], up to 1e6.
+    width: of the ribbon [m]; it changes only the mass.
+    pins: see `pinned_particles`.
+    fabric: the material.
+
+    Raises OptionError for numbers out of range.
     """
     check_fabric(fabric)
     check_count("strip count", count, 2, MAX_PARTICLES)
@@ -147,6 +161,7 @@ def max_stretch(positions: Vectors, cloth: Cloth) -> float:
     """The largest relative elongation of a structural spring; 0.05 is five per cent.
 
     positions: [m], shape [..., N, 3].
+    cloth: whose springs these are.
     """
     structural = cloth.spring_kind == STRUCTURAL
     ratios = spring_lengths(positions, cloth)[..., structural] / cloth.spring_length[structural]

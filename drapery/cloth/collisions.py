@@ -36,13 +36,13 @@ class Collisions:
     thickness: of the cloth [m]; particles stay half of it away from every collider. Cloth that is
         much thicker than the cells beside its pins stays less far from boxes at rest.
     order: how finely faces are tested, 1 to 16, see `sample_points`.
-    apart: least distance between parts of the cloth itself [m], such as its thickness; None lets
-        it pass through itself. Cloths that `sew` joins without seams meet each other.
+    apart: least distance between parts of the cloth itself [m], such as its thickness; None lets it
+        pass through itself. Cloths that `sew` joins without seams meet each other.
     limit: longest length of a structural spring over its rest length. Springs that colliders
         stretched more are shortened, and colliders are applied again. Boxes and planes are met
         without it, see docs/explanation/contact.md.
     rounds: how often colliders are applied in a step.
-    threads: None for as many as there are processors.
+    threads: 1 or more; None uses every processor.
 
     Raises OptionError for numbers out of range.
     """

@@ -28,13 +28,15 @@ WORK_ROWS = 18
 def accelerations(forces: Sequence[Force], cloth: Cloth, state: State) -> Vectors:
     """The acceleration of each particle by all forces at the time of a state [m/s²], [B, N, 3].
 
-    It is that of gravity, drag (with the drag of the cloth's fabric), winds and forces of your own;
+    These are gravity, drag (with the drag of the cloth's fabric), winds and forces of your own;
     springs and bending are a solver's. Pinned particles have 0. A wind depends on the velocity of
     the cloth; built-in solvers sample it once a step.
 
     forces: as of `simulate`.
+    cloth: the cloth on which they act.
     state: of B cloths; its numbers are float32 or float64, and so is the result.
-    Raises OptionError.
+
+    Raises OptionError for a force that gives a wrong value.
     """
     check_state(cloth, state)
     loads = lower_forces(forces, cloth, len(state.positions))

@@ -41,7 +41,9 @@ class Fabric:
 
     Stiffness is 0 to 1e9 N/m. The default ratio 5 : 1 : 0.2 is that of the flag of a Minecraft mod
     (50 : 10 : 2 for particles of 1 kg). The stiffness is that of one spring, so a finer grid of the
-    same fabric is softer relative to its mass. Raises OptionError for a number out of these bounds.
+    same fabric is softer relative to its mass.
+
+    Raises OptionError for a number out of these bounds.
     """
 
     density: float = 0.3

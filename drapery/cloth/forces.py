@@ -50,7 +50,11 @@ class ForceField(Protocol):
     """A user-defined force: any object with this method, which is called once a step."""
 
     def acceleration(self, cloth: Cloth, state: State) -> Vectors:
-        """Acceleration of each particle [m/s²], shape [B, N, 3] or [N, 3], all finite."""
+        """Acceleration of each particle [m/s²], shape [B, N, 3] or [N, 3], all finite.
+
+        cloth: the cloth on which the force acts.
+        state: B such cloths at one time.
+        """
 
 
 Force = Gravity | Drag | Wind | ForceField

@@ -42,8 +42,14 @@ def from_triangles(
     Structural springs are its edges. Flexion springs join the two vertices opposite each inner edge
     and resist bending there. A particle has a third of the mass of its triangles.
 
-    positions: at rest [m], shape [N, 3]. triangles: [T, 3]. uvs: [N, 2]; by default the x and y of
-    the rest shape, scaled to 0..1. Other arguments as `grid`. Raises OptionError.
+    positions: at rest [m], shape [N, 3].
+    triangles: particle indices, shape [T, 3].
+    uvs: texture coordinates, shape [N, 2]; by default the x and y of the rest shape, scaled to
+        0..1.
+    pins: see `pinned_particles`.
+    fabric: the material.
+
+    Raises OptionError for arrays of wrong shape and indices out of range.
     """
     check_fabric(fabric)
     try:
@@ -113,10 +119,14 @@ def flat_uvs(rest: Array) -> Array:
 
 
 def from_mesh(mesh: Any, **options: Any) -> Cloth:
-    """A cloth in the shape of a `trimesh.Trimesh`, or of a .glb, .obj, .ply or .stl file.
+    """A cloth in the shape of a mesh.
 
-    Vertices at the same position, as at the seams of a texture, become one particle. options: those
-    of `from_triangles`. Raises OptionError.
+    Vertices at one position, as at the seams of a texture, become one particle.
+
+    mesh: a `trimesh.Trimesh`, or the path of a .glb, .obj, .ply or .stl file.
+    options: those of `from_triangles` by name.
+
+    Raises OptionError for a file that cannot be read, and as `from_triangles` does.
     """
     name = f"mesh {mesh}" if isinstance(mesh, str | PathLike) else "mesh"
     positions, faces, uv = _arrays(mesh, name)
@@ -158,8 +168,12 @@ def disc(
 ) -> Cloth:
     """A round cloth about the origin, level and facing up: particle 0, then rings of 6, 12, 18, ….
 
-    rings: number of rings around particle 0. radius: [m]. Other arguments as `grid`. Raises
-    OptionError.
+    rings: number of rings around particle 0.
+    radius: [m], up to 1e6.
+    pins: see `pinned_particles`.
+    fabric: the material; its mass is shared by the particles.
+
+    Raises OptionError for numbers out of range.
     """
     check_count("disc rings", rings, 1, MAX_PARTICLES)
     check_particles("disc", 1 + 3 * rings * (rings + 1))

@@ -113,10 +113,12 @@ def _named(name: str, rest: Array, grid_shape: tuple[int, int] | None) -> NDArra
 
 
 def carried(cloth_positions: Vectors, pinned: Integers, pose: PosePath) -> PinPath:
-    """A path of the pins [P] of positions [N, 3] that move with a rigid body.
+    """A path of pins that move with a rigid body.
 
-    pose: rotation [3, 3] and translation [m], [3], of the body at a time [s]; the identity and 0
-    leave the pins at their positions.
+    cloth_positions: of all particles at rest [m], shape [N, 3].
+    pinned: the indices of those that are pinned, shape [P].
+    pose: rotation, shape [3, 3], and translation [m], shape [3], of the body at a time [s]; the
+        identity and 0 leave the pins at their positions.
     """
     places = cloth_positions[pinned]
 

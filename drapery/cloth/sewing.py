@@ -30,8 +30,12 @@ def sew(cloths: Sequence[Cloth], seams: Sequence[Seam] = ()) -> Cloth:
 
     A merged particle has the mean rest position, the sum of the masses and the UVs of the first of
     its particles; it is pinned if any of them is. Springs keep their lengths; of two springs that
-    join the same particles only the first stays. A seam does not resist bending. All cloths must
-    have the same drag, and those with bending the same damping. Raises OptionError.
+    join the same particles only the first stays. A seam does not resist bending.
+
+    cloths: all of the same drag, and those with bending of the same damping.
+    seams: each two cloths and the pairs of their particles.
+
+    Raises OptionError for cloths that differ in these, and for particles that do not exist.
     """
     if not cloths:
         raise OptionError("nothing to sew: give at least one cloth")

@@ -31,10 +31,13 @@ class State:
 
 
 def rest_state(cloth: Cloth, count: int = 1, dtype: DTypeLike = np.float32) -> State:
-    """`count` cloths in their rest shape with velocity 0: a start for `simulate`.
+    """Cloths in their rest shape with velocity 0: a start for `simulate`.
 
+    cloth: of what they are.
+    count: number of cloths.
     dtype: of positions and velocities, float32 or float64; the simulation uses the same type.
-    Raises OptionError.
+
+    Raises OptionError for another count or type.
     """
     check_count("count", count, 1, MAX_CLOTHS)
     try:

@@ -32,9 +32,14 @@ TOLD = 0.02
 class MovingCloth:
     """Cloths of one topology at one moment; `simulate` for forces that change between steps.
 
-    dt: one step [s]. solver_state: what the solver remembers between steps.
-    boxes: what the cloths meet inside the solver's steps. resolve: the collision stage after each
-    step, for other shapes and solvers. Both are None where the cloths meet nothing.
+    cloth: the cloth of which these are.
+    solver: the method that moves them.
+    dt: one step [s].
+    state: positions and velocities at this moment.
+    solver_state: what the solver remembers between steps.
+    resolve: the collision stage after each step, for shapes and solvers that `boxes` does not
+        serve; None where the cloths meet nothing there.
+    boxes: what the cloths meet inside the solver's steps; None where they meet nothing there.
     """
 
     cloth: Cloth
@@ -55,7 +60,17 @@ class MovingCloth:
         count: int = 1,
         collisions: Collisions | None = None,
     ) -> MovingCloth:
-        """The cloths before their first step; arguments as in `simulate`. Raises OptionError."""
+        """The cloths before their first step.
+
+        cloth: the cloth that moves.
+        solver: `SolverXPBD()` by default.
+        dt: one step [s].
+        start: by default `count` cloths in the rest shape.
+        count: number of cloths of the default start.
+        collisions: resolved after every step.
+
+        Raises OptionError for wrong arguments.
+        """
         solver = make_solver() if solver is None else solver
         check_step(dt, 1)
         _check_types(cloth, solver)
@@ -66,14 +81,29 @@ class MovingCloth:
         return MovingCloth(cloth, solver, dt, state, solver_state, *met)
 
     def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
-        """The cloths some time steps later. Raises OptionError where they are torn to infinity.
+        """The cloths some time steps later.
 
         Warns where pins or colliders pull cloth apart for the first time.
+
+        forces: what acts on the cloths in these steps.
+        steps: number of time steps.
+        pins: a path that the pinned particles follow; None leaves them in place.
+
+        Raises OptionError where the cloths are torn to infinity.
         """
         return self.unmet(forces, steps, pins).after(self.state)
 
     def unmet(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
-        """The same before contact with cloths of other topologies, which the caller resolves."""
+        """The cloths some time steps later, before they meet cloths of other topologies.
+
+        The caller resolves that contact.
+
+        forces: what acts on the cloths in these steps.
+        steps: number of time steps.
+        pins: a path that the pinned particles follow; None leaves them in place.
+
+        Raises OptionError where the cloths are torn to infinity.
+        """
         check_step(self.dt, steps)
         state, solver_state = self.state, self.solver_state
         # One call makes all steps, unless the collision stage follows each.
@@ -149,17 +179,20 @@ def simulate(
 ) -> Iterator[State]:
     """An endless iterator of states: the start, then one state after every `every` steps.
 
+    `itertools.islice` takes a number of states.
+
+    cloth: the cloth that moves.
     solver: `SolverXPBD()` by default.
     forces: by default only gravity.
     dt: one step [s].
     start: by default `count` cloths in the rest shape.
+    every: steps from one state to the next.
     pins: a path of the pinned particles.
+    count: number of cloths of the default start.
     collisions: resolved after every step.
 
-    `itertools.islice` takes a number of states.
-
-    The call raises OptionError for wrong arguments. The iterator raises it where a force or a path
-    returns a wrong value, and where positions become infinite.
+    Raises OptionError for wrong arguments; the iterator raises it where a force or a path returns a
+    wrong value, and where positions become infinite.
     """
     check_step(dt, every)
     moving = MovingCloth.begin(cloth, solver, dt, start=start, count=count, collisions=collisions)

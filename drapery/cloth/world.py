@@ -44,11 +44,12 @@ StiffMotion = Callable[[Cloth, Vectors, float], Vectors]
 class Detail:
     """How finely cloths are simulated.
 
-    full, half: distances from the eye [m] up to which cloths are simulated, on their full grid and
-        on every second row and column.
+    full: distance from the eye up to which cloths have their full grid [m].
+    half: distance from the eye up to which cloths have every second row and column [m].
     maximum: how many cloths are simulated at once.
     fade: how long a change of level takes to show [s].
-    Raises OptionError.
+
+    Raises OptionError for numbers out of range.
     """
 
     full: float = 16.0
@@ -119,11 +120,14 @@ class _ClothBatch:
 class World:
     """Cloths of several topologies that are simulated together.
 
-    dt: one step [s]. solver: one whose solver state does not depend on single cloths
-    (SolverDesbrun, SolverXPBD). forces: the forces on cloths at given places. stiff: the motion of
-    cloths that are not simulated; None leaves their shape unchanged. detail: how finely cloths are
-    simulated.
-    time: [s]. Raises OptionError.
+    dt: one step [s].
+    solver: one whose solver state does not depend on single cloths (SolverDesbrun, SolverXPBD).
+    forces: the forces on cloths at given places.
+    stiff: the motion of cloths that are not simulated; None leaves their shape unchanged.
+    detail: how finely cloths are simulated.
+    time: of the next step [s].
+
+    Raises OptionError for a step that is not above 0.
     """
 
     dt: float = 1.0 / 60.0
@@ -139,10 +143,15 @@ class World:
         check_step(self.dt, 1)
 
     def add(self, cloth: Cloth, places: Vectors) -> Integers:
-        """Add cloths of one topology at places [m], [B, 3]; returns their ids, [B].
+        """Add cloths of one topology; returns their ids, shape [B].
 
         An id never changes and is never used again. Use the same Cloth object for all cloths of a
-        topology: they are prepared once and stepped together. Raises OptionError.
+        topology: they are prepared once and stepped together.
+
+        cloth: of what these cloths are.
+        places: where they are [m], shape [B, 3].
+
+        Raises OptionError for places of another shape or that are not finite.
         """
         places = _points("places", places).reshape(-1, 3)
         if id(cloth) not in self._batches:
@@ -153,8 +162,10 @@ class World:
         return ids
 
     def remove(self, ids: Sequence[int] | Integers) -> None:
-        """Remove cloths, and a topology of which none is left. Raises OptionError for an unknown
-        id."""
+        """Remove cloths, and a topology of which none is left.
+
+        Raises OptionError for an unknown id.
+        """
         wanted = np.asarray(ids, np.int64).reshape(-1)
         missing = np.setdiff1d(wanted, self.ids())
         if missing.size:
@@ -176,7 +187,12 @@ class World:
             yield WorldView(batch.cloth, batch.ids, batch.places, faded, batch.levels)
 
     def step(self, eye: Vectors) -> None:
-        """Advance all cloths by dt. eye: the viewer's position [m], [3]. Raises OptionError."""
+        """Advance all cloths by dt.
+
+        eye: the viewer's position [m], [3].
+
+        Raises OptionError for an eye of another shape or that is not finite.
+        """
         eye = _points("eye", eye).reshape(3)
         batches = list(self._batches.values())
         for batch, levels in zip(batches, self._wanted_levels(batches, eye), strict=True):

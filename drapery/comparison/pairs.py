@@ -45,9 +45,12 @@ class BuildUpStep:
 class Comparison:
     """Two pictures and their difference.
 
-    tolerance: what counts as a difference.
+    first: the picture that the other is compared with.
+    other: the picture that is compared with it.
+    difference: how the finished pictures differ.
     build_up: one step for the base, and one for each layer of both designs, or of one if the other
         has no such layer; empty for finished pictures.
+    tolerance: what counts as a difference.
     hidden_layers: what differs in the designs and cannot be seen, in words.
     """
 
@@ -97,9 +100,16 @@ def compare(
 ) -> Comparison:
     """Compare two designs, both drawn with the same options, or two finished pictures.
 
-    settings, options: as for `draw`. tolerance: what counts as a difference.
+    Pictures of other sizes are different.
+
+    first: a design or a finished picture.
+    other: the design or picture that is compared with the first.
+    settings: the options of the pictures of designs, see `draw`.
+    tolerance: what counts as a difference.
     perceptual: measures SSIM, FLIP and CIEDE2000 too.
-    Pictures of other sizes are different. Raises OptionError, and the errors of `draw`.
+    options: fields of `Settings` by name, which override those of `settings`.
+
+    Raises DesignError, OptionError, PackError or BackendError, as `draw` does.
     """
     variants = [
         variant_of(label, subject, settings, options)

@@ -56,8 +56,9 @@ def to_world(points: Array) -> Array:
 def turn(mesh: Mesh, degrees: float) -> Mesh:
     """The mesh turned about the upright axis through the block's middle, (0.5, y, 0.5) [m].
 
-    mesh: positions and normals, each [..., V, 3]. degrees: clockwise as seen from above, so +z
-        (south) turns towards -x (west), as the game's rotations and facings do.
+    mesh: positions and normals, each [..., V, 3].
+    degrees: clockwise as seen from above, so +z (south) turns towards -x (west), as the game's
+        rotations and facings do.
     """
     matrix = turn_matrix(degrees)
     centre = turn_centre()

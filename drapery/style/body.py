@@ -14,8 +14,10 @@ from drapery.style.piece import MaterialAt, Piece
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A stiff piece of a body. mesh: [m]. material_at: its material at a time [s].
+    """A stiff piece of a body.
 
+    mesh: positions [m].
+    material_at: its material at a time [s].
     name: in 3-D files, such as `banner/pole`.
     """
 
@@ -63,10 +65,13 @@ class Panel:
 class Body:
     """One thing that is drawn: stiff parts and panels of cloth.
 
-    solids: what its cloth cannot enter.
+    parts: the stiff parts.
+    panels: the cloth.
     period: of its animated textures [s]; 0 if they are still.
-    light: the light on it. camera: its own; None if a named view frames it.
+    light: the light on it.
+    camera: its own; None if a named view frames it.
     ground: the block below it or the wall behind it.
+    solids: what its cloth cannot enter.
     """
 
     parts: tuple[Part, ...] = ()

@@ -18,6 +18,7 @@ from drapery.style.extrusion import THINNEST, Shell
 def cover_crowd(shell: Shell, positions: Vectors, thickness: float) -> Mesh:
     """Shells around thin sheets, along the averaged normals of their faces.
 
+    shell: the constant part of each.
     positions: [m], shape [B, N, 3], of single or double precision, which the shells have too.
     thickness: distance between the two sheets [m]; at least THINNEST is drawn.
     """

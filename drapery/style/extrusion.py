@@ -85,7 +85,8 @@ class Shell:
     def cover(self, positions: Vectors, normals: Vectors, thickness: float) -> Mesh:
         """The shells around thin sheets: each vertex moves half the thickness along its normal.
 
-        positions, normals: [m] and unit, shape [..., N, 3].
+        positions: [m], shape [..., N, 3].
+        normals: unit vectors, shape [..., N, 3].
         thickness: distance between the two sheets [m]; at least THINNEST is drawn.
         """
         half = positions.dtype.type(max(thickness, THINNEST) / 2.0)
@@ -114,10 +115,13 @@ def make_shell(
 ) -> Shell:
     """The constant part of thick cloths that share their triangles and texture coordinates.
 
-    triangles: of the thin sheet, shape [T, 3]. uvs: its texture coordinates 0..1, shape [N, 2].
-    uv_mapping: where its front, back and rim lie on the texture; the same picture on both sides
-    unless given. grid: (rows, columns) of a sheet that is a whole grid, which styles can change.
     `Shell.cover` makes the mesh at each moment.
+
+    triangles: of the thin sheet, shape [T, 3].
+    uvs: its texture coordinates 0..1, shape [N, 2].
+    uv_mapping: where its front, back and rim lie on the texture; the same picture on both sides
+        unless given.
+    grid: (rows, columns) of a sheet that is a whole grid, which styles can change.
     """
     rim = boundary_edges(triangles)
     sheets = [uv_mapping.front(uvs), uv_mapping.back(uvs)]
@@ -134,10 +138,13 @@ def thicken(shell: Shell, sheet: Array, thickness: float) -> Mesh:
 
 
 def extrude(mesh: Mesh, thickness: float, uv_mapping: UVMapping = SHEET_MAPPING) -> Mesh:
-    """Give a thin mesh a thickness [m]: front and back sheets and a closed rim.
+    """Give a thin mesh a thickness: front and back sheets and a closed rim.
+
+    For moving cloth, make the shell once with `make_shell`, and `cover` each moment.
 
     mesh: its normals point forwards; give averaged ones (`drapery.render.vertex_normals`).
-    uv_mapping: see `make_shell`. For moving cloth, make the shell once and `cover` each moment.
+    thickness: distance between the two sheets [m].
+    uv_mapping: where front, back and rim lie on the texture, see `make_shell`.
     """
     shell = make_shell(mesh.triangles, mesh.uvs, uv_mapping)
     return shell.cover(mesh.positions, mesh.normals, thickness)

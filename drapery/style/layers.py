@@ -23,7 +23,12 @@ def flag_material(
 ) -> Material:
     """The material of a flag: the cloth, the base dye, then the layers in order.
 
-    time: for animated textures [s]. Raises PackError where a texture cannot be used.
+    banner: the design.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    mode: `stacked` has a layer for each of the design; `composite` has one for all.
+    time: of animated textures [s].
+
+    Raises PackError where a texture cannot be used.
     """
     return _material(flag_layers(banner, packs, time), mode)
 

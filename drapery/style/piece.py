@@ -64,9 +64,11 @@ class Piece:
         return positions.reshape(*positions.shape[:-2], *self.grid_shape, 3)
 
     def without_cells(self, kept: Mask, uv_mapping: UVMapping) -> "Piece":
-        """The piece with only the cells that are kept, shape [rows - 1, columns - 1].
+        """The piece with only some of its cells.
 
+        kept: which cells stay, shape [rows - 1, columns - 1].
         uv_mapping: where its front, back and new rim lie on the texture.
+
         Raises OptionError for a piece with cells cut out.
         """
         (rows, columns), whole = self.grid_shape, self.shell
@@ -80,7 +82,7 @@ class Piece:
         """The closed mesh: two sheets and a rim, along the normals or with sharp edges.
 
         positions: of its vertices [m], shape [..., N, 3].
-        normals: of them; the averaged ones of its own triangles unless given.
+        normals: of them, shape [..., N, 3]; the averaged ones of its own triangles unless given.
         """
         if normals is None:
             normals = self.shell.normals(positions)

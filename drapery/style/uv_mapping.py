@@ -23,7 +23,11 @@ class UVMapping(Protocol):
         """UVs of the back sheet, shape [N, 2]."""
 
     def rim(self, uvs: UVs, edges: Pairs) -> UVs:
-        """UVs of the rim, shape [4 E, 2]: front start, front end, back start, back end."""
+        """UVs of the rim, shape [4 E, 2]: front start, front end, back start, back end.
+
+        uvs: those of the thin sheet, shape [N, 2].
+        edges: its boundary edges, shape [E, 2].
+        """
 
     def __hash__(self) -> int:
         """Equal for equal mappings, because shells are cached by their mapping."""
@@ -68,9 +72,15 @@ class RegionMapping:
 class BoxMapping:
     """The unfolded box of the game's models: a rectangle for each of the six sides.
 
-    The left edge's strip has the front at its right border, the right edge's at its left, the
-    top and bottom edges' at their lower border, so the picture continues around the corner. All
-    rectangles are fractions of the texture: left, top, right, bottom.
+    All rectangles are fractions of the texture: left, top, right, bottom. The picture continues
+    around the corners.
+
+    front_rect: that of the front.
+    back_rect: that of the back.
+    left: that of the left edge, which has the front at its right border.
+    right: that of the right edge, which has the front at its left border.
+    top: that of the top edge, which has the front at its lower border.
+    bottom: that of the bottom edge, which has the front at its lower border.
     """
 
     front_rect: Rect
@@ -120,10 +130,11 @@ def box_mapping(
     size: tuple[float, float, float],
     sheet: tuple[float, float] = (64, 64),
 ) -> BoxMapping:
-    """Where the sides of a box lie on its texture, as in the game's models; all in texels.
+    """Where the sides of a box lie on its texture, as in the game's models.
 
-    offset: the upper left corner of the unfolded box on the texture. size: width, height and depth
-    of the box. sheet: width and height of the texture.
+    offset: the upper left corner of the unfolded box on the texture [texels].
+    size: width, height and depth of the box [texels].
+    sheet: width and height of the texture [texels].
     """
     x, y = offset
     width, height, depth = size

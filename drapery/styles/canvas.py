@@ -26,7 +26,7 @@ class Canvas:
     """A picture between two picture steps.
 
     pixels: sRGB, straight alpha, shape [H, W, 4], uint8, top row first.
-    make_buffers: makes `buffers`, when a step asks for them for the first time.
+    make_buffers: makes `buffers` when a step reads them for the first time.
     grid: the picture is drawn this many times larger than it will be, so that edges are smooth.
     pixel: each pixel becomes a square of this side.
     corner: row and column of the first of these squares at which the picture begins [pixels].
@@ -51,7 +51,10 @@ class Canvas:
         return found
 
     def painted(self, pixels: Pixels) -> "Canvas":
-        """The same canvas with other colours, [H, W, 4], uint8. Raises OptionError."""
+        """The same canvas with other colours, [H, W, 4], uint8.
+
+        Raises OptionError.
+        """
         if pixels.ndim != 3 or pixels.shape[2] != 4 or pixels.dtype != np.uint8:
             raise OptionError(
                 f"a picture step made pixels of shape {pixels.shape} and type {pixels.dtype};"

@@ -61,7 +61,10 @@ def find_style(name: StyleLike) -> Style:
 
 
 def combined_style(styles: StyleLike | Iterable[StyleLike]) -> Style:
-    """All styles as one, in their order; `PLAIN` if there are none. Raises OptionError."""
+    """All styles as one, in their order; `PLAIN` if there are none.
+
+    Raises OptionError.
+    """
     if isinstance(styles, str) or not isinstance(styles, Iterable):
         return find_style(styles)
     found = [find_style(style) for style in styles]

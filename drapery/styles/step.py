@@ -50,16 +50,18 @@ def costs(cost: int) -> Callable[[Function], Function]:
 class StyleStep:
     """A function of one kind, and the values of its parameters.
 
-    kind: what it changes: `motion`, `shape`, `material` or `picture`.
-    function: takes what it changes and keyword parameters with defaults, and returns the result:
+    The function takes what it changes and keyword parameters with defaults, and returns the result:
 
         motion: Piece, positions of all moments [m], shape [F, N, 3] -> positions
         shape: Piece, positions of one moment [m], shape [N, 3] -> Piece and positions, or Mesh
         material: Material -> Material, of the cloth
         picture: Canvas -> Canvas; or see `over_time`
 
-    parameters: their values; those left out have their defaults. Annotate each parameter with
-    pydantic's `Field`, such as `Annotated[int, Field(ge=1, le=60, description="...")]`.
+    kind: what it changes: `motion`, `shape`, `material` or `picture`.
+    function: a function as above. Annotate each parameter with pydantic's `Field`, such as
+        `Annotated[int, Field(ge=1, le=60, description="...")]`.
+    parameters: their values; those left out have their defaults.
+
     Raises OptionError that names the parameter and its limits.
     """
 

@@ -38,12 +38,15 @@ _materials: IdentityCache[Material] = IdentityCache(32)
 class Style:
     """How cloth is to look: steps that change what is simulated and drawn.
 
-    name: shown in lists. steps: applied kind by kind, each kind in this order; see `StyleStep`.
-    light, samples: those of a picture that gives none, see `Settings`; None leaves them.
+    `one | other` has the steps of both, those of `one` first.
+
+    name: shown in lists.
+    steps: applied kind by kind, each kind in this order; see `StyleStep`.
+    light: of a picture that gives none, see `Settings`; None leaves it.
+    samples: of a picture that gives none, see `Settings`; None leaves them.
     description: one line about it.
 
-    `one | other` has the steps of both, those of `one` first. Raises OptionError, also for steps
-    that together exceed the bounds of `styles.chain`.
+    Raises OptionError, also for steps that together exceed the bounds of `styles.chain`.
     """
 
     name: str
@@ -106,15 +109,22 @@ class Style:
         return settings.changed(**own)
 
     def move(self, piece: Piece, positions: Vectors) -> Vectors:
-        """The positions of a piece at all moments [m], [F, N, 3], after the motion steps."""
+        """The positions of a piece at all moments after the motion steps [m], shape [F, N, 3].
+
+        piece: the cloth that moves.
+        positions: of its vertices at all moments [m], shape [F, N, 3].
+        """
         for step in self._of("motion"):
             positions = step.apply(piece, positions)
         return positions
 
     def mesh(self, piece: Piece, positions: Vectors) -> Mesh:
-        """The shape steps applied, then the thickness. Raises OptionError.
+        """The shape steps applied, then the thickness.
 
-        positions: of the piece at one moment [m], shape [N, 3].
+        piece: the cloth.
+        positions: of its vertices at one moment [m], shape [N, 3].
+
+        Raises OptionError for a step that returns something else.
         """
         shaped: Mesh | tuple[Piece, Vectors] = piece, positions
         for step in self._of("shape"):
@@ -139,15 +149,22 @@ class Style:
         """A scene drawn by a backend, and the picture steps applied to all but its background.
 
         Edges are smoothed after the steps: the scene is drawn larger, with one sample a pixel.
-        A finished frame is changed as a flat picture: all that is visible is one model.
+
+        scene: what is drawn. A finished frame is changed as a flat picture: all that is visible is
+            one model.
+        draw_scene: the backend.
+
         Raises OptionError for over MAX_SAMPLES samples.
         """
         return next(self.draw_loop((scene,), draw_scene))
 
     def draw_loop(self, scenes: Iterable[Scene | Frame], draw_scene: DrawScene) -> Iterator[Frame]:
-        """The scenes or frames of a loop, all of one size, drawn as by `draw`.
+        """The scenes of a loop, drawn as by `draw`.
 
         Each is drawn when the iterator reaches it, or all at once for steps that are `over_time`.
+
+        scenes: scenes or finished frames, all of one size.
+        draw_scene: the backend.
         """
         steps = [*self._of("picture")]
         if not steps:

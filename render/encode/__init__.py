@@ -33,11 +33,15 @@ def save_frame(
 ) -> None:
     """Write one picture.
 
+    frame: the picture.
+    path: the file; its ending selects the format.
     matte: in a format whose pixels are opaque or have no colour, the colour behind half-transparent
-    pixels; with None, those of at least half alpha become opaque. quality: of a format that may
-    lose something, 1 to 100; with None WebP loses nothing, AVIF a little. Raises OptionError for an
-    unknown ending, a matte or quality that does nothing and a picture that is too large for the
-    format, OutputError for a bad target.
+        pixels; with None, those of at least half alpha become opaque.
+    quality: of a format that may lose something, 1 to 100; with None WebP loses nothing, AVIF a
+        little.
+
+    Raises OptionError for an unknown ending, a matte or quality that does nothing and a picture
+    that is too large for the format, OutputError for a bad target.
     """
     format = check_target(path, "still")
     _check_matte(format, matte, "still")
@@ -57,13 +61,19 @@ def save_animation(
 ) -> None:
     """Write frames as they come; each is encoded while the next ones are drawn.
 
-    fps: frames/s, above 0. matte: as for `save_frame`; in a video it is the background (default:
-    white). quality: as for `save_frame`. progress: called with the number of frames drawn and
-    `total`, by default len(frames).
+    No error leaves a partial file; KeyboardInterrupt leaves the finished frames in a folder that
+    had no frames before.
+
+    frames: at least one, of one size.
+    fps: [frames/s], above 0.
+    path: the file, or a folder of frames; its ending selects the format.
+    matte: as for `save_frame`; in a video it is the background (default: white).
+    quality: as for `save_frame`.
+    total: number of the frames, for `progress`; by default len(frames).
+    progress: called with the number of frames drawn and `total`.
+
     Raises OptionError as `save_frame`, for no frames, frames of several sizes and more frames/s
-    than the format has, OutputError for a bad target, BackendError if PyAV is missing. No error
-    leaves a partial file; KeyboardInterrupt leaves the finished frames in a folder that had no
-    frames before.
+    than the format has, OutputError for a bad target, BackendError if PyAV is missing.
     """
     format = check_target(path, "loop")
     _check_matte(format, matte, "loop")

@@ -30,7 +30,10 @@ LIKELY = 1.3
 class FittedLoop:
     """What was chosen for a destination.
 
-    size: [pixels]. fps: [frames/s]. quality: None without loss. length: of the file [bytes].
+    size: width and height [pixels].
+    fps: [frames/s].
+    quality: of the format, 1 to 100; None without loss.
+    length: of the file [bytes].
     """
 
     size: tuple[int, int]
@@ -50,15 +53,19 @@ def save_for(
     fps: float | None = None,
     quality: int | None = None,
 ) -> FittedLoop:
-    """Write the best loop that a destination takes: the largest, then with the most frames, then of
-    the best quality.
+    """Write the best loop that a destination takes.
+
+    It is the largest, then that with the most frames, then that of the best quality.
 
     to: a name of `file_formats.DESTINATIONS`.
     frames_at: draws the loop of a size [pixels] and of frames/s.
     path: its ending selects the format.
     seconds: length of the loop [s].
-    size, fps, quality: those of the loop where the caller chooses them; None where this does.
+    size: width and height [pixels] where the caller chooses them; None where this does.
     shape: width and height, in proportion, where the size is chosen.
+    fps: [frames/s] where the caller chooses them; None where this does.
+    quality: of the format, 1 to 100, where the caller chooses it; None where this does.
+
     Raises OptionError for a destination that is not known or does not play the format, and for a
     loop that does not fit; OutputError for a bad target.
     """

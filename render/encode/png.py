@@ -30,7 +30,12 @@ SRGB = b"sRGB", b"\0"
 
 
 def png_bytes(pixels: Pixels, level: int = LEVEL, *, srgb: bool = False) -> bytes:
-    """A PNG file; the same pixels and level give the same bytes. srgb: whether it says so."""
+    """A PNG file; the same pixels and level give the same bytes.
+
+    pixels: sRGB, straight alpha, shape [H, W, 4], uint8.
+    level: of zlib, 0 (fast) to 9 (small).
+    srgb: whether the file says that it is sRGB.
+    """
     info = PngInfo()
     if srgb:
         info.add(*SRGB)
@@ -56,8 +61,10 @@ def apng_bytes(
 ) -> bytes:
     """An APNG file, lossless; the same frames give the same bytes.
 
-    frames: at least one, of one size. fps: frames/s, above 0. delays: how long each frame is shown
-    [s], in place of fps. plays: how often the animation is played; 0 for ever.
+    frames: at least one, of one size.
+    fps: [frames/s], above 0.
+    delays: how long each frame is shown [s], in place of fps.
+    plays: how often the animation is played; 0 for ever.
     """
     file = BytesIO()
     _write_loop(file, frames, fps, delays=delays, plays=plays)

@@ -93,9 +93,11 @@ def save_sprites(loops: Mapping[str, Sequence[HasPixels]], fps: float, path: str
     """Write loops as one sprite sheet, each in a row of its own, and the JSON beside it.
 
     loops: frames of one size by name, equally many in each; the names are tags in the JSON.
-    fps: frames/s, above 0.
-    Raises OptionError for a name that does not end with `.sheet.png`, and for loops that differ in
-    size or number, OutputError for a sheet that is too large or cannot be written.
+    fps: [frames/s], above 0.
+    path: the sheet, whose name ends with `.sheet.png`.
+
+    Raises OptionError for another name, and for loops that differ in size or number, OutputError
+    for a sheet that is too large or cannot be written.
     """
     target = check_sheet(path)
     sizes = {(len(frames), *frame.pixels.shape) for frames in loops.values() for frame in frames}

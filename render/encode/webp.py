@@ -28,7 +28,9 @@ DO_NOT_BLEND = 0x02
 def webp_bytes(pixels: Pixels, method: int = 4, quality: int | None = None) -> bytes:
     """A WebP file, lossless and exact also where the picture is transparent without a quality.
 
-    method: 0 (fast) to 6 (small). quality: of colours, 1 to 100; their transparency is exact.
+    pixels: sRGB, straight alpha, shape [H, W, 4], uint8.
+    method: 0 (fast) to 6 (small).
+    quality: of colours, 1 to 100; their transparency is exact. None loses nothing.
     """
     file = BytesIO()
     if quality is not None:

@@ -24,12 +24,15 @@ def save_scenes(
     fps: float = 20.0,
     origin: Vector = (0.0, 0.0, 0.0),
 ) -> None:
-    """Write a scene, or the scenes of a loop, as a 3-D file.
+    """Write a scene, or the scenes of a loop, as a 3-D file; no error leaves a partial file.
 
-    fps: frames/s of a loop. origin: the place in the scene that is the file's origin [m].
-    Raises OptionError for an unknown ending, for models without a scene, for scenes with
-    different meshes and for a loop of more poses than the format has, OutputError for a bad
-    target; no partial file remains.
+    scenes: one, or those of a loop, of equal meshes.
+    path: the file; its ending selects the format.
+    fps: [frames/s] of a loop.
+    origin: the place in the scene that is the file's origin [m].
+
+    Raises OptionError for an unknown ending, for models without a scene, for scenes with different
+    meshes and for a loop of more poses than the format has, OutputError for a bad target.
     """
     path = Path(path)
     format = check_target(path, "model")

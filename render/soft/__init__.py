@@ -160,6 +160,10 @@ def draw_buffers(scene: Scene, *, threads: int | None = None) -> Buffers:
     """Depth, normal, model and texture coordinates in the middle of each pixel of a scene.
 
     They have the same bits for any number of threads, and fit the picture of any backend.
+
+    scene: what is drawn.
+    threads: 1 or more; None uses every processor.
+
     Raises OptionError for sizes, textures or meshes that cannot be drawn.
     """
     scene = replace(scene, samples=1)

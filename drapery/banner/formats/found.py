@@ -37,9 +37,10 @@ _LONGEST_STEP = 200
 class FoundBanner:
     """A banner and its place: a path in a tree, after the position of a block or a name.
 
+    banner: the design.
     where: such as `tower.nbt block 1,2,3` or `Items[0]`; empty if the text is only the banner.
     details: what the text says of the item beside its design, or None; it does not count in
-    comparisons.
+        comparisons.
     """
 
     banner: Banner

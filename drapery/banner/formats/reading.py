@@ -46,14 +46,17 @@ _SUFFIXES = tuple(
 
 
 def read_designs(source: str | Path, *, form: str | None = None) -> list[FoundBanner]:
-    """All banners of a text, a file, a folder of files, a world, a data pack, or input ("-").
+    """All banners of a text, a file, a folder of files, a world, a data pack, or standard input.
 
     A data pack may be a folder or a zip; those of a world are read with it. A folder that is
     neither a world nor a pack is read file by file, sorted by name, without its folders and links;
     each banner's place begins with its file's name. One UserWarning names all that is not read,
     with the reason.
 
+    source: a text, or the path of a file or folder if there is one of that name; "-" is standard
+        input.
     form: one of FORMS or of `binary_forms()`, or None to recognise it.
+
     Raises DesignError as `parse_banners` does, for files that cannot be read, and for a folder
     without a design or with over 100,000 files.
     """

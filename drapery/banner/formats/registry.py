@@ -156,8 +156,9 @@ def recognise(text: str) -> Form:
 def parse_banners(text: str, *, form: str | None = None) -> list[FoundBanner]:
     """All banners of a text, at least one, each with its place in the text.
 
-    form: one of FORMS, or None to recognise it. A text may have several commands, one on each
-        line, as in a function file; a broken line is skipped with a warning.
+    text: one design in any form, or several commands, one on each line, as in a function file; a
+        broken line is skipped with a warning.
+    form: one of FORMS, or None to recognise it.
 
     Raises DesignError with the place and the remedy.
     """

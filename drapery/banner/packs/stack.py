@@ -69,9 +69,10 @@ class PackFile:
 @dataclass(frozen=True, eq=False)
 class Packs:
     """A stack of packs, lowest first; the lowest is our own art. Files are read when needed.
-
-    packs: the packs of the stack. format: the resource format that they were opened for, or None.
     `open_packs` makes one.
+
+    packs: the packs of the stack, lowest first.
+    format: the resource format that they were opened for, or None.
     """
 
     packs: tuple[Pack, ...]
@@ -92,35 +93,50 @@ class Packs:
     )
 
     def sheet(self, pattern: str, kind: Kind = "banner", time: float = 0.0) -> Texels:
-        """The sheet of a pattern, shape [H, H, 4], at a time [s] of its animation.
+        """The sheet of a pattern, shape [H, H, 4].
 
-        pattern: an id such as `creeper`, or `namespace:path` for a pattern of a data pack, of
-            a MemoryPack or of a texture. A missing one is the game's checker, with a warning.
-        Raises PackError.
+        pattern: an id such as `creeper`, or `namespace:path` for a pattern of a data pack, of a
+            MemoryPack or of a texture. A missing one is the game's checker, with a warning.
+        kind: what the sheet is for, a banner or a shield.
+        time: of its animation [s].
+
+        Raises PackError for a file that cannot be used.
         """
         return self._sheet(pattern, kind).at(time)
 
     def base(self, base: Base, time: float = 0.0) -> Texels:
         """The sheet under a design, or of a shield without one, shape [H, H, 4].
 
-        Raises PackError.
+        base: `banner_base`, `shield_base` or `shield_base_nopattern`.
+        time: of its animation [s].
+
+        Raises PackError for a file that cannot be used.
         """
         return self._textures.get(base, lambda: self._read_base(base)).at(time)
 
     def base_sheet(self, time: float = 0.0) -> Texels:
-        """Pole, bar and undyed cloth of a banner, shape [H, H, 4]. Raises PackError."""
+        """Pole, bar and undyed cloth of a banner, shape [H, H, 4].
+
+        Raises PackError.
+        """
         return self.base("banner_base", time)
 
     def texture(self, name: str, time: float = 0.0) -> Texels:
-        """Any texture by id, such as `minecraft:block/stone`, shape [H, W, 4].
+        """Any texture by id, shape [H, W, 4]. A missing one is the game's checker, with a warning.
 
-        A missing one is the game's checker, with a warning. Raises PackError.
+        name: such as `minecraft:block/stone`.
+        time: of its animation [s].
+
+        Raises PackError for a file that cannot be used.
         """
         full = full_id(name)
         return self._textures.get(full, lambda: self._any_texture(full)).at(time)
 
     def has_texture(self, name: str) -> bool:
-        """Whether a pack or our own art has a texture of this id. Raises PackError."""
+        """Whether a pack or our own art has a texture of this id.
+
+        Raises PackError.
+        """
         return self._find([texture_file(full_id(name))]) is not None
 
     def elytra(self) -> Texels | None:
@@ -133,7 +149,9 @@ class Packs:
     def placed(self, places: Sequence[Place]) -> Texels | None:
         """The texture at the first of some places that a pack has, shape [H, W, 4], or None.
 
-        See `find`. Raises PackError.
+        See `find`.
+
+        Raises PackError.
         """
         found = self.find(places)
         return None if found is None else self.texels(found)
@@ -142,7 +160,9 @@ class Packs:
         """The file at the first of some places that a pack has, or None.
 
         The topmost pack that has one counts, and in it the place where the game of its format
-        looks. Raises PackError.
+        looks.
+
+        Raises PackError.
         """
         at = {place.file: place for place in places}
         found = self._find(
@@ -160,16 +180,31 @@ class Packs:
         return found
 
     def file(self, name: str, limit: int) -> PackFile | None:
-        """The topmost pack's file of a name, or None. limit: its most bytes. Raises PackError."""
+        """The topmost pack's file of a name, or None.
+
+        name: the path in the pack.
+        limit: the largest size that is read [bytes].
+
+        Raises PackError for a file that is larger or cannot be read.
+        """
         return self._find([name], limit=limit)
 
     def texels(self, file: PackFile, time: float = 0.0) -> Texels:
-        """The texture of a file that `find` gave, shape [H, W, 4]. Raises PackError."""
+        """The texture of a file, shape [H, W, 4].
+
+        file: one that `find` gives.
+        time: of its animation [s].
+
+        Raises PackError for a file that cannot be used.
+        """
         key = ("file", file.level, file.name)
         return self._textures.get(key, lambda: self.read(file)).at(time)
 
     def read(self, file: PackFile) -> Texture:
-        """The texture of a file that `find` gave, which is not kept. Raises PackError."""
+        """The texture of a file that `find` gave, which is not kept.
+
+        Raises PackError.
+        """
         return self._read(file, file.name)
 
     def place(self, file: PackFile) -> str:
@@ -177,29 +212,49 @@ class Packs:
         return f"{self.packs[file.level].label}: {file.name}"
 
     def period(self, pattern: str, kind: Kind = "banner") -> float:
-        """The length of the animation of a pattern's sheet [s]; 0 if it is still."""
+        """The length of the animation of a pattern's sheet [s]; 0 if it is still.
+
+        pattern: its id, see `sheet`.
+        kind: what the sheet is for, a banner or a shield.
+        """
         return self._sheet(pattern, kind).period
 
     def normal_map(self, pattern: str, kind: Kind = "banner") -> Texels | None:
-        """The LabPBR `_n` texture beside a pattern's sheet, raw, or None. Raises PackError.
+        """The LabPBR `_n` texture beside a pattern's sheet, raw, shape [H, W, 4], or None.
 
         Red and green are the normal's x and y, blue is ambient occlusion, alpha is height.
+
+        pattern: its id, see `sheet`.
+        kind: what the sheet is for, a banner or a shield.
+
+        Raises PackError for a file that cannot be used.
         """
         return self._map(self._find_sheet(pattern, kind), "_n")
 
     def specular_map(self, pattern: str, kind: Kind = "banner") -> Texels | None:
-        """The LabPBR `_s` texture beside a pattern's sheet, raw, or None. Raises PackError.
+        """The LabPBR `_s` texture beside a pattern's sheet, raw, shape [H, W, 4], or None.
 
         Red is smoothness, green is F0, blue is porosity, alpha is emission.
+
+        pattern: its id, see `sheet`.
+        kind: what the sheet is for, a banner or a shield.
+
+        Raises PackError for a file that cannot be used.
         """
         return self._map(self._find_sheet(pattern, kind), "_s")
 
     def base_normal_map(self, base: Base = "banner_base") -> Texels | None:
-        """The LabPBR `_n` texture beside a base, raw, or None. Raises PackError."""
+        """The LabPBR `_n` texture beside a base, raw, or None.
+
+        Raises PackError.
+        """
         return self._map(self._find_base(base), "_n")
 
     def base_specular_map(self, base: Base = "banner_base") -> Texels | None:
-        """The LabPBR `_s` texture beside a base, raw, or None. Raises PackError."""
+        """The LabPBR `_s` texture beside a base, raw, or None.
+
+        Raises PackError.
+        """
         return self._map(self._find_base(base), "_s")
 
     def patterns(self) -> tuple[str, ...]:
@@ -218,7 +273,11 @@ class Packs:
         return tuple(sorted({name for pack in self.packs for name in extra_sprites(pack)}))
 
     def level(self, pattern: str, kind: Kind = "banner") -> int | None:
-        """The index in `packs` of the pack with a pattern's sheet, or None if it is missing."""
+        """The index in `packs` of the pack with a pattern's sheet, or None if it is missing.
+
+        pattern: its id, see `sheet`.
+        kind: what the sheet is for, a banner or a shield.
+        """
         found = self._find_sheet(pattern, kind)
         return None if found is None else found.level
 
@@ -230,7 +289,10 @@ class Packs:
     def files(self, pattern: str, kind: Kind = "banner") -> tuple[PackFile, ...]:
         """The files of a pattern's sheet and of its LabPBR maps, as they lie in the packs.
 
-        Raises PackError.
+        pattern: its id, see `sheet`.
+        kind: what the sheet is for, a banner or a shield.
+
+        Raises PackError for a pack that cannot be read.
         """
         sheet = self._find_sheet(pattern, kind)
         found = (sheet, self._find_map(sheet, "_n"), self._find_map(sheet, "_s"))
@@ -443,7 +505,9 @@ class Packs:
     def asset_id(self, pattern: str) -> str:
         """The asset id in the pattern's definition in a data pack, or the pattern itself.
 
-        pattern: with its namespace. Raises PackError.
+        pattern: with its namespace.
+
+        Raises PackError.
         """
         namespace, path = split_id(pattern)
         found = self._find([f"data/{namespace}/banner_pattern/{path}.json"], limit=MAX_JSON)

@@ -20,8 +20,7 @@ SLACK = 1e-6
 
 
 def check_collider(collider: Collider, count: int = 2000) -> None:
-    """Check that nothing can pass through a collider's shape. Raises OptionError with the first
-    fault found:
+    """Check that nothing can pass through a collider's shape. These are faults:
 
     - the signed distance is not finite at some point;
     - no surface is found;
@@ -30,7 +29,10 @@ def check_collider(collider: Collider, count: int = 2000) -> None:
       a function that grows faster than its argument (Lipschitz constant over 1);
     - the path gives a position or rotation that is not finite, or a matrix that is not a rotation.
 
+    collider: the collider to check.
     count: sample points, pseudo-random and the same in every run.
+
+    Raises OptionError with the first fault found.
     """
     name = f"collider {type(collider.shape).__name__}"
     points = _samples(collider.packed, count)

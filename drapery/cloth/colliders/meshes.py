@@ -13,11 +13,16 @@ from drapery.mesh_file import joined, read_mesh_file
 
 
 def mesh_collider(vertices: ArrayLike, triangles: ArrayLike) -> TriangleMesh:
-    """A collider from vertices [V, 3] in metres and triangles [T, 3].
+    """A collider from a triangle mesh.
 
     Vertices at the same position are merged, triangles without area are removed, and closed parts
-    that are inside out are reversed. Raises OptionError for arrays of wrong shape, indices out of
-    range and numbers that are not finite.
+    that are inside out are reversed.
+
+    vertices: [m], shape [V, 3].
+    triangles: vertex indices, shape [T, 3].
+
+    Raises OptionError for arrays of wrong shape, indices out of range and numbers that are not
+    finite.
     """
     points, faces = _checked(np.asarray(vertices, float), np.asarray(triangles))
     points, faces = _welded(points, faces)
@@ -29,9 +34,12 @@ def mesh_collider(vertices: ArrayLike, triangles: ArrayLike) -> TriangleMesh:
 
 
 def load_mesh(path: str | Path, scale: float = 1.0) -> TriangleMesh:
-    """A collider from a .glb, .obj, .ply or .stl file.
+    """A collider from a file of a mesh.
 
-    scale: metres in one unit of the file. Raises OptionError for a file that cannot be read.
+    path: a .glb, .obj, .ply or .stl file.
+    scale: metres in one unit of the file.
+
+    Raises OptionError for a file that cannot be read.
     """
     points, faces = joined(read_mesh_file(path, max_faces=MAX_TRIANGLES))
     try:
@@ -44,8 +52,10 @@ def height_collider(heights: ArrayLike, cell: float = 1.0, depth: float = 1.0) -
     """Solid ground under a height map.
 
     heights: height of the ground [m] at x = column · cell, z = row · cell; shape [R, C].
-    cell: distance between neighbouring heights [m]. depth: thickness of the ground below its
-    lowest point [m]. Raises OptionError.
+    cell: distance between neighbouring heights [m].
+    depth: thickness of the ground below its lowest point [m].
+
+    Raises OptionError for other shapes and numbers that are not finite.
     """
     surface = np.asarray(heights, float)
     if surface.ndim != 2 or min(surface.shape) < 2 or not np.isfinite(surface).all():

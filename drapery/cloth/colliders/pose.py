@@ -64,9 +64,13 @@ def straight(velocity: tuple[float, float, float]) -> Path:
 
 
 def swinging(pivot: tuple[float, float, float], swing: float, period: float, phase: float) -> Path:
-    """The path of a walking leg: it swings about the x axis through `pivot` [m].
+    """The path of a walking leg, which swings about the x axis.
 
-    swing: largest angle to either side [degrees]. period: [s]. phase: fraction of a period, 0 to 1.
+    pivot: the point about which it swings [m].
+    swing: largest angle to either side [degrees].
+    period: [s], above 0.
+    phase: fraction of a period, 0 to 1.
+
     Raises OptionError for a period that is not above 0.
     """
     centre = np.asarray(pivot, float)
@@ -81,12 +85,12 @@ def swinging(pivot: tuple[float, float, float], swing: float, period: float, pha
 
 
 def rotation_about(axis: tuple[float, float, float], angle: float | Floats) -> Matrices:
-    """Rotation matrix about an axis, by Rodrigues' formula.
+    """Rotation matrices about an axis by Rodrigues' formula, one an angle, shape [..., 3, 3].
 
-    axis: in any length.
+    axis: its direction, of any length above 0.
     angle: [degrees], a number or an array of any shape [...].
-    Returns one matrix for each angle, shape [..., 3, 3]. Raises OptionError for an axis without a
-    direction.
+
+    Raises OptionError for an axis without a direction.
     """
     length = float(np.sqrt(np.square(axis).sum()))
     if not (np.isfinite(length) and length > 0):

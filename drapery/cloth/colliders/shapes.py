@@ -16,7 +16,13 @@ MAX_TRIANGLES = 1_000_000
 
 @dataclass(frozen=True, eq=False)
 class Sphere:
-    """A ball: centre [m], shape [3]; radius [m]. Raises OptionError for a radius not above 0."""
+    """A ball.
+
+    centre: [m], shape [3].
+    radius: [m], above 0.
+
+    Raises OptionError for a centre that is not finite and a radius not above 0.
+    """
 
     centre: Vectors
     radius: float
@@ -28,7 +34,11 @@ class Sphere:
 
 @dataclass(frozen=True, eq=False)
 class Capsule:
-    """All points within `radius` [m] of the segment from start to end [m], shape [3] each.
+    """All points within a distance of a segment.
+
+    start: one end of the segment [m], shape [3].
+    end: its other end [m], shape [3].
+    radius: the distance [m].
 
     Raises OptionError for ends that are not finite and a radius not above 0.
     """
@@ -45,8 +55,13 @@ class Capsule:
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """A box: centre [m], shape [3]; size, the three edge lengths [m]; rotation of the box about its
-    centre, a matrix [3, 3]. Raises OptionError for sizes not above 0 and other matrices.
+    """A box of any rotation.
+
+    centre: [m], shape [3].
+    size: the three edge lengths [m], shape [3].
+    rotation: of the box about its centre, a matrix of shape [3, 3].
+
+    Raises OptionError for sizes not above 0 and other matrices.
     """
 
     centre: Vectors
@@ -62,9 +77,12 @@ class Box:
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """A half-space: solid below the plane through `point` [m], shape [3].
+    """A half-space: solid below a plane.
 
-    normal: points to free space, shape [3], of any length above 0. Raises OptionError.
+    point: any point of the plane [m], shape [3].
+    normal: points to free space, shape [3], of any length above 0.
+
+    Raises OptionError for a normal without a direction and numbers that are not finite.
     """
 
     point: Vectors
@@ -80,11 +98,11 @@ class Plane:
 class Voxels:
     """Cubes of one size on a grid: part of a world of blocks, or a creature made of blocks.
 
-    cells: integer cell coordinates, shape [M, 3]; cell (i, j, k) fills [i, i+1] x [j, j+1] x
-        [k, k+1] times `size`. Faces between two filled cells never touch a cloth.
+    cells: integer cell coordinates, shape [M, 3]; cell (i, j, k) fills [i, i+1] x [j, j+1] x [k,
+        k+1] times `size`. Faces between two filled cells never touch a cloth.
     size: edge length [m].
 
-    Raises OptionError.
+    Raises OptionError for coordinates that are not integers and a size not above 0.
     """
 
     cells: Integers

@@ -27,7 +27,13 @@ class Solver(Protocol):
     """
 
     def init(self, cloth: Cloth, dt: float) -> Any:
-        """A solver state for steps of dt [s] of this cloth. Raises OptionError."""
+        """A solver state for steps of one cloth.
+
+        cloth: the cloth that moves.
+        dt: one step [s].
+
+        Raises OptionError for a cloth or step that the method cannot move.
+        """
 
     def step(
         self,
@@ -40,11 +46,19 @@ class Solver(Protocol):
         steps: int = 1,
         pins: PinPath | None = None,
     ) -> tuple[State, Any]:
-        """The state of the cloths after `steps` steps of dt [s], and the next solver state.
+        """The state of the cloths some steps later, and the next solver state.
 
         Several steps in one call give the same result as one step per call, and are faster.
+
+        cloth: the cloth of which these are.
+        state: positions and velocities before the steps.
+        solver_state: what `init` or the call before returned.
+        forces: what acts on the cloths in these steps.
+        dt: one step [s].
+        steps: number of steps.
         pins: a path that the pinned particles follow; None leaves them in place.
-        Raises OptionError.
+
+        Raises OptionError for a force or path that gives a wrong value.
         """
 
 

@@ -107,10 +107,18 @@ class Batch(NamedTuple):
 class SolverState:
     """A method's plan for one cloth and step, in each floating-point type that is used.
 
+    plan: the constant data of the cloth, as named tuples of arrays.
+    dt: one step [s].
+    substeps: of each step.
     kernel: called with first, last, plan, batch, steps, substeps and the options; it steps whole
-    registers of cloths, or one cloth at a time.
+        registers of cloths, or one cloth at a time.
+    options: further arguments of the kernel.
+    alone: whether the kernel steps one cloth at a time.
     often: whether contacts are resolved in every substep, not once a step. Free cloth lies still
-    only so. limit: see `Batch`. squares: of a plane of lanes, see `plane_squares`.
+        only so.
+    limit: see `Batch`.
+    squares: of a plane of lanes, shape [2, S], see `plane_squares`.
+    by_type: the plan in each floating-point type, made when it is used.
     """
 
     plan: Any
@@ -167,7 +175,19 @@ class KernelSolver:
         pins: PinPath | None = None,
         boxes: BoxColliders | None = None,
     ) -> tuple[State, SolverState]:
-        """See `base.Solver`. boxes: what the cloths meet at the end of each step."""
+        """The state of the cloths some steps later, and the next solver state, see `Solver.step`.
+
+        cloth: the cloth of which these are.
+        state: positions and velocities before the steps.
+        solver_state: what `init` or the call before returned.
+        forces: what acts on the cloths in these steps.
+        dt: one step [s].
+        steps: number of steps.
+        pins: a path that the pinned particles follow; None leaves them in place.
+        boxes: what the cloths meet at the end of each step.
+
+        Raises OptionError for a force or path that gives a wrong value.
+        """
         check_step(dt, steps)
         check_state(cloth, state)
         if dt != solver_state.dt:

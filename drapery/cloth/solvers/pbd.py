@@ -131,7 +131,11 @@ class SolverPBD(KernelSolver):
 
     @classmethod
     def cape(cls, passes: int = 3, damping: float = 1.0) -> "SolverPBD":
-        """Pixel-art capes: neighbours no farther than at rest, a few passes, air resistance."""
+        """Pixel-art capes: neighbours no farther than at rest, a few passes, air resistance.
+
+        passes: passes of relaxation, a substep, 0 to 1000.
+        damping: rate at which all velocities decay [1/s], 0 to 1e6.
+        """
         return cls(
             passes=passes,
             substeps=1,

@@ -21,9 +21,12 @@ DEFAULT_SOLVER = "xpbd"
 
 
 def solver(name: str = DEFAULT_SOLVER, **options: Any) -> Solver:
-    """A solver by its name, with keyword options: `solver("pbd", passes=8)`.
+    """A solver by its name: `solver("pbd", passes=8)`.
 
     The default is that of `simulate`, `MovingCloth.begin`, `World` and `Settings`.
+
+    name: one of SOLVERS.
+    options: fields of its class by name.
 
     Raises OptionError for an unknown name or option.
     """

@@ -17,7 +17,8 @@ class Kind:
     """One kind of thing that is drawn.
 
     build: makes the body of a design (None for a texture) from packs and settings; raises
-        OptionError and PackError. placements: where it can be.
+        OptionError and PackError.
+    placements: where it can be.
     """
 
     build: Callable[[Banner | None, Packs, Settings], Body]
@@ -36,6 +37,10 @@ KINDS: dict[str, Kind] = {
 def body_of(design: Banner | None, packs: Packs, settings: Settings) -> Body:
     """What is to be drawn: a design, or for capes and elytra the texture of the settings.
 
+    design: None for a cape, elytra or plain shield.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    settings: the options of the picture.
+
     Raises OptionError for options that do not fit the kind, and PackError.
     """
     kind = check_kind(design, settings)
@@ -48,10 +53,12 @@ def body_of(design: Banner | None, packs: Packs, settings: Settings) -> Body:
 
 
 def check_kind(design: Banner | None, settings: Settings) -> Kind:
-    """The kind that the settings ask for; nothing is drawn and no file is read.
+    """The kind of the settings; nothing is drawn and no file is read.
 
-    design: None for a cape, elytra or plain shield. Raises OptionError where options, or a design,
-    do not fit the kind.
+    design: None for a cape, elytra or plain shield.
+    settings: the options of the picture.
+
+    Raises OptionError where options, or a design, do not fit the kind.
     """
     name = settings.kind
     if name == "auto":
