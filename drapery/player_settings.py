@@ -24,9 +24,9 @@ def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
 
 @dataclass(frozen=True)
 class PlayerSettings:
-    """Checked options of a player. Raises OptionError that names the option and its limits.
+    """Checked options of a player. `drapery.garments.player_of` makes what is drawn.
 
-    `drapery.garments.player_of` makes what is drawn.
+    Raises OptionError that names the option and its limits.
     """
 
     skin: str = _option(

@@ -13,11 +13,6 @@ from public_api import PACKAGES, ROOT, load, public_objects
 
 from drapery.errors import DraperyError
 
-LATER = {
-    *("drapery.banner", "drapery.packs", "drapery.garments", "drapery.scenes", "drapery.sheets"),
-    *("drapery.comparison", "drapery.match", "drapery.batch", "drapery.testing"),
-}
-"""Packages whose docstrings have another form. Nothing may be added here."""
 UNITS = {
     **dict.fromkeys(("seconds", "time", "times", "dt", "step", "period", "timeout"), "[s]"),
     **dict.fromkeys(("fps",), "[frames/s]"),
@@ -179,7 +174,7 @@ def names() -> dict[str, griffe.Object]:
     return dict(public_objects(load()))
 
 
-@pytest.mark.parametrize("package", [name for name in PACKAGES if name not in LATER])
+@pytest.mark.parametrize("package", PACKAGES)
 def test_every_parameter_has_a_line_and_errors_are_named(
     package: str, names: dict[str, griffe.Object]
 ) -> None:

@@ -17,9 +17,10 @@ _WOOL = 6
 class CraftingItem:
     """An item that a design takes.
 
-    item: its id without `minecraft:`. count: how many. consumed: whether it is used up; a pattern
-    item is not. source: where an item that cannot be crafted comes from, or what a pattern item is
-    crafted from.
+    item: its id without `minecraft:`.
+    count: how many.
+    consumed: whether it is used up; a pattern item is not.
+    source: where an item that cannot be crafted comes from, or what a pattern item is crafted from.
     """
 
     item: str

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 class Dye:
     """One dye.
 
-    name: its id in commands. number: 0 to 15, white is 0. rgb: the colour that it gives to a
-    banner's cloth, 8-bit sRGB, as in the game's class `DyeColor`.
+    name: its id in commands.
+    number: 0 to 15, white is 0.
+    rgb: the colour that it gives to a banner's cloth, 8-bit sRGB, as in the game's class
+        `DyeColor`.
     """
 
     name: str

@@ -47,9 +47,12 @@ def letter_banners(
 ) -> tuple[Banner, ...]:
     """The banners of a text, one for each character; a space is a plain banner.
 
+    A design has at most six layers.
+
     text: A to Z in either case, digits, spaces, and the punctuation of `letter_characters`.
-    ink, ground: dyes of the letters and of what is around them. border: its dye, the ground's if
-    None, or "none" for letters that reach the edges. A design has at most six layers.
+    ink: the dye of the letters.
+    ground: the dye of what is around them.
+    border: its dye, the ground's if None, or "none" for letters that reach the edges.
 
     Raises DesignError for an empty text, one of over 200 characters, a character without a design,
     an unknown dye, or the same dye for ink and ground.

@@ -13,7 +13,11 @@ from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
 
 @dataclass(frozen=True)
 class LoomStep:
-    """One step at the loom. layer: what is added. banner: the design after it."""
+    """One step at the loom.
+
+    layer: what is added.
+    banner: the design after it.
+    """
 
     layer: Layer
     banner: Banner
@@ -39,7 +43,12 @@ def fits_loom(banner: Banner) -> bool:
 def simplify(banner: Banner, packs: Packs) -> Banner:
     """The banner without the layers that change no texel of the flag.
 
-    Lower layers are removed first, so of two equal layers the upper one stays. Raises PackError.
+    Lower layers are removed first, so of two equal layers the upper one stays.
+
+    banner: the design.
+    packs: the resource packs with which no texel changes, see `drapery.packs.open_packs`.
+
+    Raises PackError for a texture that cannot be used.
     """
     whole = _visible(banner, packs)
     result = banner

@@ -109,9 +109,12 @@ def pattern_id(name: object, at: str = "", *, bukkit: bool = False) -> str:
 
     Takes ids with and without `minecraft:`, codes of versions before 1.20.5, Bedrock's codes,
     Bukkit's names and English titles in any case.
+
+    name: any of these names.
+    at: the place of the name, with which an error begins.
     bukkit: whether the name is known to be Bukkit's.
 
-    Raises DesignError that begins with the place `at`.
+    Raises DesignError for another name.
     """
     if not isinstance(name, str):
         raise DesignError(
@@ -131,9 +134,11 @@ def pattern_id(name: object, at: str = "", *, bukkit: bool = False) -> str:
 def dye_name(value: object, at: str = "", *, inverted: bool = False) -> str:
     """The dye of a name or of a number from 0 to 15.
 
-    White is number 0, or 15 where `inverted` (Java up to 1.12, and Bedrock).
+    value: a name in any case, or a number.
+    at: the place of the value, with which an error begins.
+    inverted: white is number 15, not 0, as in Java up to 1.12, and Bedrock.
 
-    Raises DesignError that begins with the place `at`.
+    Raises DesignError for another value.
     """
     if isinstance(value, int) and not isinstance(value, bool):
         if not 0 <= value < len(DYE_NAMES):

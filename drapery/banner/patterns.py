@@ -7,7 +7,9 @@ from dataclasses import dataclass
 class Pattern:
     """One pattern of the game.
 
-    name: its id. code: its short name before 1.20.5, None if it had none. title: its English name.
+    name: its id.
+    code: its short name before 1.20.5, None if it had none.
+    title: its English name.
     """
 
     name: str

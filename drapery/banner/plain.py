@@ -37,10 +37,13 @@ def parse_design(text: str) -> Banner:
 def read_design(
     source: str | Path, *, form: str | None = None, number: int | None = None
 ) -> Banner:
-    """The banner of a text, of a file if a file of that name exists, or of standard input ("-").
+    """The banner of a text, of a file, or of standard input.
 
-    form, number: as in `parse_banner`. Raises DesignError as `parse_banner` does, and for files
-    that cannot be read.
+    source: a text, or the path of a file if one of that name exists; "-" is standard input.
+    form: one of FORMS, or None to recognise it.
+    number: which banner, from 1, if the text holds several.
+
+    Raises DesignError as `parse_banner` does, and for files that cannot be read.
     """
     if isinstance(source, str) and form is None and number is None:
         plain = plain_design(source)

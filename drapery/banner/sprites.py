@@ -33,7 +33,13 @@ _BAND = 128
 
 @dataclass(frozen=True)
 class SheetRegion:
-    """A rectangle of a sheet, in 64ths of its side; v grows downwards."""
+    """A rectangle of a sheet, in 64ths of its side; v grows downwards.
+
+    left: u of the left edge.
+    top: v of the upper edge.
+    right: u of the right edge.
+    bottom: v of the lower edge.
+    """
 
     left: int
     top: int
@@ -60,9 +66,12 @@ class SheetRegion:
         return np.ascontiguousarray(sheet[rows[:, None], columns])
 
     def sample(self, sheet: Texels, scale: int) -> Texels:
-        """The region at `scale` pixels a unit, shape [scale * rows, scale * columns, 4].
+        """The pixels of the region, shape [scale * rows, scale * columns, 4].
 
         Each pixel is the nearest texel to its centre, so pictures of all packs have one size.
+
+        sheet: square, shape [H, H, 4].
+        scale: pixels a unit.
         """
         texels = self.crop(sheet)
         rows = nearest_texels(len(texels), (self.bottom - self.top) * scale)
@@ -156,7 +165,11 @@ def _tinted_rows(texels: Texels, rgb: Tint, side: int, rows: slice) -> Texels:
 def flag_layers(banner: Banner, packs: Packs, time: float = 0.0) -> tuple[Tinted, ...]:
     """The sheets of a flag with their tints, lowest first, as the game stacks them.
 
-    time: for animated textures [s]. Raises PackError.
+    banner: the design.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    time: of animated textures [s].
+
+    Raises PackError for a texture that cannot be used.
     """
     dyed = [("base", banner.base), *((layer.pattern, layer.dye) for layer in banner.layers)]
     sheets = [(packs.sheet(pattern, time=time), DYES[dye].rgb) for pattern, dye in dyed]
@@ -164,9 +177,13 @@ def flag_layers(banner: Banner, packs: Packs, time: float = 0.0) -> tuple[Tinted
 
 
 def shield_layers(banner: Banner | None, packs: Packs, time: float = 0.0) -> tuple[Tinted, ...]:
-    """The sheets of a shield with their tints, lowest first; None is the shield without design.
+    """The sheets of a shield with their tints, lowest first.
 
-    time: for animated textures [s]. Raises PackError.
+    banner: the design; None is the shield without one.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    time: of animated textures [s].
+
+    Raises PackError for a texture that cannot be used.
     """
     if banner is None:
         return ((packs.base("shield_base_nopattern", time), WHITE),)

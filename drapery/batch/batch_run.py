@@ -26,10 +26,14 @@ MAX_WORKERS = 512
 class BatchResult:
     """The result of a run, as numbers of output files.
 
-    total: all outputs of the manifest. drawn: drawn by this run. copied: copied from an equal
-    output. existing: drawn by an earlier run. failed: the records of failed outputs, with their
-    errors. warnings: each once. errors: errors of writing results or the report. seconds: duration
-    of the run [s].
+    total: all outputs of the manifest.
+    drawn: those that this run drew.
+    copied: those that are a copy of an equal output.
+    existing: those that an earlier run drew.
+    failed: the records of failed outputs, with their errors.
+    warnings: each once.
+    errors: errors of writing results or the report.
+    seconds: duration of the run [s].
     """
 
     total: int
@@ -64,6 +68,11 @@ def run_batch(
 ) -> BatchResult:
     """Draw all pictures of a manifest; pictures of earlier runs are not drawn again.
 
+    A failed picture does not raise: it is listed in `BatchResult.failed`.
+
+    Workers are started by multiprocessing, so a script must call this below `if __name__ ==
+    "__main__":`.
+
     manifest: a file (CSV, JSON lines or YAML), a world, region or schematic, or rows in memory:
         mappings of option names to values. A row's `design` is a text or a `Banner`.
     out: a folder, or an address that fsspec knows, such as `s3://bucket/folder`.
@@ -74,18 +83,14 @@ def run_batch(
         the address of a Dask scheduler, such as `tcp://host:8786`.
     resume: continue a stopped run; jobs that failed in it after all retries are not tried again.
     retries: how often a failed job is tried again.
-    timeout: longest time of one job [s]. memory: most memory of one job [MiB].
+    timeout: longest time of one job [s].
+    memory: most memory of one job [MiB].
     results: the file that records the results; None is `drapery-batch.sqlite` in `out`.
     on_event: called with the run's `Progress` before the first job and after each job.
 
-    A failed picture does not raise: it is listed in `BatchResult.failed`.
-
-    Workers are started by multiprocessing, so a script must call this below
-    `if __name__ == "__main__":`.
-
     Raises ManifestError with all faults of the manifest, OptionError for other bad arguments,
-    DesignError for a broken world, OutputError if `out` or `results` cannot be used, LostError
-    (a BackendError) if the cluster's scheduler ends.
+    DesignError for a broken world, OutputError if `out` or `results` cannot be used, LostError (a
+    BackendError) if the cluster's scheduler ends.
     """
     within("workers", 1 if workers is None else workers, 1, MAX_WORKERS, "processes")
     within("retries", retries, 0, 100)

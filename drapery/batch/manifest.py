@@ -41,7 +41,11 @@ _RESERVED = re.compile(r"(con|prn|aux|nul|(com|lpt)[0-9¹²³]) *(\..*)?", re.IG
 
 
 class ManifestError(OptionError):
-    """A manifest with faults. faults: all of them, in the manifest's order."""
+    """A manifest with faults.
+
+    name: of the manifest.
+    faults: all of them, in the manifest's order.
+    """
 
     def __init__(self, name: object, faults: list[ManifestFault]) -> None:
         self.faults = faults
@@ -65,9 +69,12 @@ class RowFields:
 class PictureRequest:
     """One checked picture of a manifest.
 
-    place: of its row in the manifest. out: its file, relative to the output folder.
+    place: of its row in the manifest.
+    out: its file, relative to the output folder.
     banner: a banner or garment; None for what needs no design.
-    seconds, fps: of an animation; None for a still.
+    settings: the options of the picture.
+    seconds: length of an animation [s]; None for a still.
+    fps: [frames/s] of an animation; None for a still.
     """
 
     place: str

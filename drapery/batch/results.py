@@ -26,9 +26,14 @@ CREATE INDEX IF NOT EXISTS by_key ON outputs (key, state);
 class OutputRecord:
     """The record of one output file.
 
-    out: the file, relative to the output folder. key: see `picture_key`. place: of its row in the
-    manifest. state: `done` or `failed`. error: why it failed, one line. tries: number of tries.
-    seconds: duration of the last try [s]. size: of the file [bytes].
+    out: the file, relative to the output folder.
+    key: see `picture_key`.
+    place: of its row in the manifest.
+    state: `done` or `failed`.
+    error: why it failed, one line.
+    tries: number of tries.
+    seconds: duration of the last try [s].
+    size: of the file [bytes].
     """
 
     out: str

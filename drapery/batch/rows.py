@@ -36,7 +36,11 @@ class ManifestRow:
 
 @dataclass(frozen=True)
 class ManifestFault:
-    """A fault at a place of the manifest, in one line with the remedy."""
+    """A fault of a manifest.
+
+    place: its place in the manifest.
+    message: the fault in one line with the remedy.
+    """
 
     place: str
     message: str

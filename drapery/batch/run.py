@@ -14,9 +14,14 @@ from drapery.errors import DraperyError, OutputError
 class Progress:
     """How far a run is. It changes while the run goes on. Counts are of outputs, not of jobs.
 
-    total: all outputs. drawn: made by this run. copied: from an output of the same key. existing:
-    there before. failed: each with its error. warnings: each once. errors: what else could not be
-    written, such as the results. busy: the time that jobs took, all workers together [s].
+    total: all outputs.
+    drawn: those that this run drew.
+    copied: those that are a copy of an output of the same key.
+    existing: those that an earlier run drew.
+    failed: each with its error.
+    warnings: each once.
+    errors: what else could not be written, such as the results.
+    busy: the time that jobs took, all workers together [s].
     """
 
     total: int

@@ -11,6 +11,9 @@ def align(a: Sequence[Hashable], b: Sequence[Hashable]) -> list[Aligned]:
 
     Items between the same pairs that are in no common subsequence replace one another, the first
     the first; those left over have no partner.
+
+    a: the first sequence.
+    b: the sequence that is aligned with it.
     """
     lengths = [[0] * (len(b) + 1) for _ in range(len(a) + 1)]
     for i in reversed(range(len(a))):

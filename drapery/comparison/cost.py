@@ -15,14 +15,21 @@ REPEATS = 9
 
 @dataclass(frozen=True)
 class Cost:
-    """quads: textured quads drawn. milliseconds: for one frame, the median of a few frames."""
+    """What it takes to draw one frame.
+
+    quads: textured quads drawn.
+    milliseconds: for one frame, the median of a few frames.
+    """
 
     quads: int
     milliseconds: float
 
 
 def cost_of(variant: Variant) -> Cost:
-    """Measure a variant on this machine. Raises OptionError for a finished picture."""
+    """Measure a variant on this machine.
+
+    Raises OptionError for a finished picture.
+    """
     if variant.banner is None or variant.settings is None:
         raise OptionError(f"{variant.label} is a finished picture; give a design to measure")
     scene = still(

@@ -11,22 +11,27 @@ from drapery.comparison.limits import Box
 class Difference:
     """The difference between a picture and the expected one.
 
-    pixels: number of pixels of each picture. changed: number of pixels that differ.
-    max_error, mean_error: largest and average error over the channels of all pixels, 0..255; a
-        part of 1 where both pictures have 16 bits a channel.
-    beyond: number of pixels beyond the tolerance of a pixel. allowed: how many may be.
-    smoothed: number of pixels of smoothed edges that do not count. ignored: those left out.
+    pixels: number of pixels of each picture.
+    changed: number of pixels that differ.
+    max_error: largest error over the channels of all pixels, 0..255; a part of 1 where both
+        pictures have 16 bits a channel.
+    mean_error: average error over the channels of all pixels, as `max_error`.
+    beyond: number of pixels beyond the tolerance of a pixel.
+    allowed: how many pixels may be beyond it.
+    smoothed: number of pixels of smoothed edges that do not count.
+    ignored: number of pixels that are left out.
     hidden: number of pixels of which only the colour behind full transparency differs.
     box: left, top, width and height of the area of the pixels that are beyond, or of all that
         differ if none is; None if none differs.
     exceeded: the perceptual limits that are exceeded, in words.
     unlike: what differs beside the pixels, in words: sizes, the number of frames, their times.
-    frames: the numbers of the frames that do not agree, from 1; empty for stills. The counts of
-        a loop are those of all its frames.
-    ssim: structural similarity (Wang et al. 2004), 1 for equal pictures.
-    flip: mean FLIP error (Andersson et al. 2020), 0 for equal pictures.
-    ciede2000: mean colour difference (Sharma, Wu, Dalal 2005), 0 for equal pictures.
-    The last three are None unless they were requested or are limits.
+    frames: the numbers of the frames that do not agree, from 1; empty for stills. The counts of a
+        loop are those of all its frames.
+    ssim: structural similarity (Wang et al. 2004), 1 for equal pictures; None unless it was
+        requested or is a limit.
+    flip: mean FLIP error (Andersson et al. 2020), 0 for equal pictures; None as `ssim`.
+    ciede2000: mean colour difference (Sharma, Wu, Dalal 2005), 0 for equal pictures; None as
+        `ssim`.
     """
 
     pixels: int

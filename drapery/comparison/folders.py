@@ -21,9 +21,11 @@ MAX_FILES = 100_000
 class FilePair:
     """A file of two folders.
 
-    name: its path in the folders. comparison: of both pictures; None unless both can be compared.
-    path: of the file, if only one folder has it. fault: why both cannot be compared, or nothing.
+    name: its path in the folders.
     verdict: "same", "within" the limits, "different", "removed", "added", or "broken".
+    comparison: of both pictures; None unless both can be compared.
+    path: of the file, if only one folder has it.
+    fault: why both cannot be compared, or nothing.
     """
 
     name: str
@@ -45,8 +47,9 @@ class FilePair:
 
 @dataclass(frozen=True)
 class FolderFiles:
-    """The pictures of a folder and of those in it: their paths in it, sorted.
+    """The pictures of a folder and of those in it.
 
+    names: their paths in the folder, sorted.
     others: the number of files that are no pictures, and of links to folders.
     """
 
@@ -55,7 +58,10 @@ class FolderFiles:
 
 
 def folder_files(folder: Path) -> FolderFiles:
-    """The files of a folder. Raises OptionError for a folder that cannot be read, or too many."""
+    """The files of a folder.
+
+    Raises OptionError for a folder that cannot be read, or too many.
+    """
     names: list[str] = []
     others = 0
     for parent, folders, files in os.walk(folder, onerror=_refuse):
@@ -79,8 +85,14 @@ def compare_folders(
     """Compare the pictures of two folders, by their paths, one after the other.
 
     Files that only one folder has are removed or added. A file that cannot be read is broken, and
-    the others are compared all the same. Raises OptionError as `folder_files`, and if neither
-    folder has a picture.
+    the others are compared all the same.
+
+    first: the folder of the expected pictures.
+    other: the folder that is compared with it.
+    tolerance: what counts as a difference.
+    perceptual: measures SSIM, FLIP and CIEDE2000 too.
+
+    Raises OptionError as `folder_files`, and if neither folder has a picture.
     """
     old, new = folder_files(first), folder_files(other)
     if not old.names and not new.names:

@@ -25,8 +25,12 @@ def ignored_pixels(
 ) -> Mask | None:
     """Which pixels do not count, shape [H, W]; None if all count.
 
-    size: height and width [px]. mask: see `painted`. Raises OptionError for a mask of another
-    size, or a box outside the picture, which would do nothing.
+    size: height and width [px].
+    boxes: left, top, width and height of each area [px].
+    mask: see `painted`, shape [H, W].
+
+    Raises OptionError for a mask of another size, or a box outside the picture, which would do
+    nothing.
     """
     height, width = size
     if mask is not None and mask.shape != (height, width):

@@ -14,10 +14,12 @@ if TYPE_CHECKING:
 
 
 def read_tolerance(given: Mapping[str, Any], folder: Path | None = None) -> Tolerance:
-    """The tolerance of options by their names; None leaves a default.
+    """The tolerance of options by their names.
 
-    given: texts, or values of Python, JSON, TOML or YAML. folder: the path of a mask starts here;
-    by default in the present one. Raises OptionError.
+    given: texts, or values of Python, JSON, TOML or YAML; None leaves a default.
+    folder: the path of a mask starts here; by default in the present one.
+
+    Raises OptionError for an unknown option and a value out of range.
     """
     values = {
         name: LIMIT_OPTIONS[name].parse(value, folder)

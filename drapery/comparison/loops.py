@@ -26,8 +26,14 @@ def measure_pictures(
 ) -> Difference:
     """Measure a picture against the expected one; see `measure`.
 
-    Pictures of other sizes or lengths are different; what both have is compared. Raises
-    OptionError for a mask of another size than both, or a box outside the larger picture.
+    Pictures of other sizes or lengths are different; what both have is compared.
+
+    expected: a still or a loop.
+    actual: the still or loop to measure.
+    tolerance: what counts as a difference.
+    perceptual: measures SSIM, FLIP and CIEDE2000 too.
+
+    Raises OptionError for a mask of another size than both, or a box outside the larger picture.
     """
     unlike = tuple(_unlike(expected, actual))
     found = [
@@ -56,7 +62,11 @@ def left_out(a: Channels, b: Channels, tolerance: Tolerance) -> NDArray[np.bool_
 
 
 def padded(a: Channels, b: Channels) -> tuple[Channels, Channels]:
-    """Two pictures with transparent pixels to the right and below, so that their sizes agree."""
+    """Two pictures with transparent pixels to the right and below, so that their sizes agree.
+
+    a: the first picture, shape [H, W, 4].
+    b: the second picture, shape [H, W, 4].
+    """
     if a.shape == b.shape:
         return a, b
     height, width = (max(sizes) for sizes in zip(a.shape[:2], b.shape[:2], strict=True))

@@ -28,7 +28,12 @@ _BLOCK = 1 << 16
 def errors(expected: Channels, actual: Channels) -> Channels:
     """The largest channel error of each pixel, shape [H, W], in the pictures' own units.
 
-    The colour of transparent pixels does not count. Raises OptionError if the sizes differ.
+    The colour of transparent pixels does not count.
+
+    expected: sRGB with straight alpha, shape [H, W, 4].
+    actual: the picture to measure, of the same shape.
+
+    Raises OptionError if the sizes differ.
     """
     old, new = _alike(expected, actual)
     difference = np.abs(seen(old).astype(np.int32) - seen(new))
@@ -44,10 +49,15 @@ def measure(
     ignored: Mask | None = None,
     perceptual: bool = False,
 ) -> Difference:
-    """Measure a picture, sRGB with straight alpha, shape [H, W, 4], against the expected one.
+    """Measure a picture against the expected one.
 
-    expected, actual: uint8 or uint16; 16 bits count where both have them. ignored: pixels that do
-    not count, shape [H, W]. perceptual: SSIM, FLIP and CIEDE2000 as well; they take longer.
+    expected: sRGB with straight alpha, shape [H, W, 4], uint8 or uint16; 16 bits count where both
+        pictures have them.
+    actual: the picture to measure, of the same shape.
+    tolerance: what counts as a difference.
+    ignored: pixels that do not count, shape [H, W].
+    perceptual: measures SSIM, FLIP and CIEDE2000 too; they take longer.
+
     Raises OptionError if the sizes differ.
     """
     old, new = _alike(expected, actual)
@@ -65,7 +75,15 @@ def difference_map(
     *,
     ignored: Mask | None = None,
 ) -> Bytes:
-    """What each pixel is: SAME, WITHIN, SMOOTHED or BEYOND, shape [H, W]; see `measure`."""
+    """What each pixel is: SAME, WITHIN, SMOOTHED or BEYOND, shape [H, W]; see `measure`.
+
+    expected: sRGB with straight alpha, shape [H, W, 4].
+    actual: the picture to measure, of the same shape.
+    tolerance: what counts as a difference.
+    ignored: pixels that do not count, shape [H, W].
+
+    Raises OptionError if the sizes differ.
+    """
     old, new = _alike(expected, actual)
     kinds = np.zeros(old.shape[:2], np.uint8)
     for part in _different_parts(old, new, ignored):

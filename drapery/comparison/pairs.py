@@ -26,7 +26,11 @@ class BuildUpStep:
     """Two designs, each with its first layers only, and how their pictures differ.
 
     names: what the step adds to each design; None where it adds nothing.
-    changed: whether the designs differ in it. hidden: whether that cannot be seen at the end.
+    first: the picture of the first design.
+    other: the picture of the other design.
+    difference: how these pictures differ.
+    changed: whether the designs differ in the step.
+    hidden: whether what differs cannot be seen at the end.
     """
 
     names: tuple[str | None, str | None]
@@ -124,7 +128,14 @@ def compare_variants(
     *,
     perceptual: bool = False,
 ) -> list[Comparison]:
-    """Compare every variant with the first. Raises OptionError for a single one."""
+    """Compare every variant with the first.
+
+    variants: two or more.
+    tolerance: what counts as a difference.
+    perceptual: measures SSIM, FLIP and CIEDE2000 too.
+
+    Raises OptionError for a single one.
+    """
     if len(variants) < 2:
         raise OptionError("one picture cannot be compared; name at least two")
     first, *others = variants
@@ -262,7 +273,11 @@ def _step_name(variant: Variant, count: int) -> str:
 
 
 def pair_entry(pair: Comparison, *, pictured: bool = True) -> ReportEntry:
-    """The pair as a part of a report. pictured: whether the part has pictures."""
+    """The pair as a part of a report.
+
+    pair: what was compared.
+    pictured: whether the part has pictures.
+    """
     # Imported here: the words of blazon load a grammar, which only reports need.
     from drapery.banner import alt_text
 

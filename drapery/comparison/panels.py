@@ -26,10 +26,15 @@ def difference_panel(
     *,
     tolerance: Tolerance = EXACT,
 ) -> Pixels:
-    """The expected picture in faint grey with errors in red, multiplied by `gain`.
+    """The expected picture in faint grey with errors in red.
 
     What is within the tolerance is amber. Pictures of two sizes are shown one over the other, from
     their upper left corners.
+
+    expected: sRGB with straight alpha, shape [H, W, 4].
+    actual: the picture to compare, shape [H, W, 4].
+    gain: errors are multiplied by it.
+    tolerance: what counts as a difference.
     """
     old, new = padded(expected, actual)
     ignored = left_out(expected, actual, tolerance)
@@ -52,7 +57,13 @@ def side_by_side(
     *,
     tolerance: Tolerance = EXACT,
 ) -> Frame:
-    """Both pictures and their difference; small pictures are enlarged. See `difference_panel`."""
+    """Both pictures and their difference; small pictures are enlarged. See `difference_panel`.
+
+    expected: sRGB with straight alpha, shape [H, W, 4].
+    actual: the other picture, shape [H, W, 4].
+    labels: those of the two pictures.
+    tolerance: what counts as a difference.
+    """
     panel = difference_panel(expected, actual, tolerance=tolerance)
     return joined_panels(expected, actual, panel, labels)
 
@@ -63,7 +74,13 @@ def joined_panels(
     panel: Pixels,
     labels: tuple[str, str] = ("expected", "actual"),
 ) -> Frame:
-    """Both pictures and a panel of their difference."""
+    """Both pictures and a panel of their difference, side by side.
+
+    expected: sRGB with straight alpha, shape [H, W, 4].
+    actual: the other picture, shape [H, W, 4].
+    panel: the picture of the difference, shape [H, W, 4], uint8.
+    labels: those of the two pictures.
+    """
     scale = shown_scale(*panel.shape[:2])
     shown = (*map(eight_bits, padded(expected, actual)), panel)
     named = zip((*labels, "difference"), shown, strict=True)

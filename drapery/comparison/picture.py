@@ -61,7 +61,9 @@ def as_picture(source: Any) -> Picture:
     """A Frame, an Animation, a Pillow image, an array or the path of a file, as a Picture.
 
     An array is [H, W], [H, W, 3] or [H, W, 4] of uint8 or uint16. An animated Pillow image is a
-    loop. Raises OptionError for anything else, for a mode without a fixed range of values, and as
+    loop.
+
+    Raises OptionError for anything else, for a mode without a fixed range of values, and as
     `read_picture`.
     """
     if isinstance(source, Picture):
@@ -80,12 +82,22 @@ def as_picture(source: Any) -> Picture:
 
 
 def read_picture(path: Path) -> Picture:
-    """The picture in a file. Raises OptionError for one that cannot be read or is too large."""
+    """The picture in a file.
+
+    Raises OptionError for one that cannot be read or is too large.
+    """
     return decode_picture(picture_bytes(path), str(path))
 
 
 def decode_picture(data: bytes, name: str, formats: Sequence[str] = READERS) -> Picture:
-    """The picture in a file's bytes. name: of the file in errors. Raises OptionError."""
+    """The picture in a file's bytes.
+
+    data: the bytes.
+    name: of the file, in errors.
+    formats: names of the formats that are read.
+
+    Raises OptionError for bytes that are no such picture, and for a picture that is too large.
+    """
     with opened(data, name, formats) as image:
         count = getattr(image, "n_frames", 1)
         if count * image.width * image.height > MAX_PIXELS:

@@ -40,8 +40,13 @@ alt="{{ label }}{% if entry.shown %}: {{ entry.shown }}{% endif %}" src="{{ data
 
 @dataclass(frozen=True)
 class ReportEntry:
-    """One part of a report: its name and result, facts, and pictures as data addresses.
+    """One part of a report.
 
+    name: its heading.
+    same: whether the pictures agree.
+    line: the result.
+    facts: numbers and words by their name.
+    pictures: pairs of a label and a picture as a `data:` address.
     shown: what the pictures show, in words.
     """
 
@@ -59,12 +64,21 @@ def data_address(frame: Frame) -> str:
 
 
 def data_of(encoded: bytes, kind: str) -> str:
-    """An encoded picture as a `data:` address; kind is png, gif or webp."""
+    """An encoded picture as a `data:` address.
+
+    encoded: the bytes of its file.
+    kind: png, gif or webp.
+    """
     return f"data:image/{kind};base64,{base64.b64encode(encoded).decode('ascii')}"
 
 
 def html_report(title: str, summary: str, entries: list[ReportEntry]) -> str:
-    """The page as text; it needs no other file."""
+    """A report as the text of a page, which needs no other file.
+
+    title: of the page.
+    summary: the result of all entries in one line.
+    entries: the parts, in this order.
+    """
     from jinja2 import Environment
 
     template = Environment(autoescape=True).from_string(_PAGE)
@@ -72,6 +86,12 @@ def html_report(title: str, summary: str, entries: list[ReportEntry]) -> str:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file, replacing it as a whole. Raises OutputError."""
+    """Write a text file, replacing it as a whole.
+
+    path: the file.
+    text: its new content.
+
+    Raises OutputError for a target that cannot be written.
+    """
     with replacing(path) as beside:
         beside.write_text(text, encoding="utf-8")

@@ -34,7 +34,11 @@ _CLEAR = [255, *[0] * 255]
 
 @dataclass(frozen=True, eq=False)
 class StillPair:
-    """Two pictures of one size and one mode, RGB or RGBA; one and the same for equal files."""
+    """Two pictures of one size and one mode, RGB or RGBA; one and the same for equal files.
+
+    old: the expected picture.
+    new: the other picture.
+    """
 
     old: "Image"
     new: "Image"
@@ -71,11 +75,15 @@ class StillPair:
 
 
 def read_stills(expected: Path, actual: "Path | Image") -> StillPair | None:
-    """A file of a picture, and another one or a Pillow image.
+    """Two pictures that can be compared as they are.
 
     None for what only `measure_pictures` compares: other files than PNG stills of colours with 8
-    bits a channel, images of other modes, and two sizes. Raises OptionError for a file that cannot
-    be read or is broken.
+    bits a channel, images of other modes, and two sizes.
+
+    expected: the file of the expected picture.
+    actual: the file of the other picture, or a Pillow image.
+
+    Raises OptionError for a file that cannot be read or is broken.
     """
     data = picture_bytes(expected)
     pictures: tuple[Image, Image] | None
@@ -97,9 +105,14 @@ def read_stills(expected: Path, actual: "Path | Image") -> StillPair | None:
 def measure_files(
     expected: Path, actual: "Path | Image", tolerance: Tolerance = EXACT
 ) -> Difference | None:
-    """Measure a picture file, or a Pillow image, against the expected file.
+    """Measure a picture against a file.
 
     None for what `read_stills` does not read, and for tolerances of more than channels and pixels.
+
+    expected: the file of the expected picture.
+    actual: the file of the picture to measure, or a Pillow image.
+    tolerance: what counts as a difference.
+
     Raises OptionError for a file that cannot be read or is broken.
     """
     if not tolerance.limits().keys() <= {"tolerance", "pixels", "ratio"}:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Tolerance:
-    """How far a picture may differ; by default not at all. Raises OptionError out of range.
+    """How far a picture may differ; by default not at all.
 
     channel: channel errors up to this value, 0..255, do not count.
     pixels: the number of pixels of each frame that may have larger errors, 0 or more.
@@ -22,9 +22,13 @@ class Tolerance:
         Kotsarenko and Ramos (2010), "Measuring perceived color difference using YIQ NTSC
         transmission color space in mobile applications"; no two colours differ by more than 1.
     antialiasing: whether pixels of smoothed edges count; see `drapery.comparison.antialiasing`.
-    ignore: boxes of pixels that do not count. mask: further such pixels, shape [H, W].
-    flip, ciede2000: the largest mean FLIP error and mean colour difference. ssim: the least
-        structural similarity. None for any.
+    ignore: boxes of pixels that do not count.
+    mask: further pixels that do not count, shape [H, W].
+    flip: the largest mean FLIP error; None for any.
+    ssim: the least structural similarity; None for any.
+    ciede2000: the largest mean colour difference; None for any.
+
+    Raises OptionError for a limit out of range.
     """
 
     channel: int = 0

@@ -25,8 +25,10 @@ Axes = dict[str, list[tuple[str, dict[str, Any]]]]
 class Variant:
     """One variant of a comparison: its label, its picture, and how to draw its first layers.
 
+    label: its name in the comparison.
     picture: the whole picture.
-    banner, settings: None for a finished picture.
+    banner: the design; None for a finished picture.
+    settings: how it is drawn; None for a finished picture.
     """
 
     label: str
@@ -77,8 +79,13 @@ def draw_variants(
     """Draw the variants of a comparison.
 
     subjects: two or more pictures; or one or more designs, and packs to draw them with.
-    styles: one for each variant.
-    form, number: the form of the designs, and which banner to use if a text holds several.
+    settings: the options of all pictures that are drawn.
+    layer_modes: one for each variant; empty for that of the settings.
+    backends: one for each variant; empty for that of the settings.
+    styles: one for each variant; empty for those of the settings.
+    form: of the designs, see `drapery.banner.parse_banner`.
+    number: which banner to use, from 1, if a text holds several.
+
     Raises OptionError unless exactly one of designs, packs, layer modes, backends and styles
     varies.
     """

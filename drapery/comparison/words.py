@@ -14,6 +14,9 @@ def difference_words(difference: Difference, tolerance: Tolerance) -> str:
     """How two pictures differ, in one line, the same wherever it is told.
 
     What is beyond the tolerance is told apart from what is within it.
+
+    difference: what was measured.
+    tolerance: with which it was measured.
     """
     return "; ".join([*difference.unlike, *difference.exceeded, *_pixels(difference, tolerance)])
 
@@ -28,7 +31,12 @@ def compared_words(
 ) -> str:
     """The names of two pictures and how they differ, in one line.
 
-    cause: the layer from which on they differ. hidden: layers that differ and cannot be seen.
+    first: the name of the expected picture.
+    other: the name of the other picture.
+    difference: how they differ.
+    tolerance: what does not count.
+    cause: the layer from which on they differ.
+    hidden: layers that differ and cannot be seen.
     """
     words = difference_words(difference, tolerance)
     words += f"; from {cause} on" if cause and not difference.same else ""
@@ -37,7 +45,12 @@ def compared_words(
 
 
 def short_labels(a: str, b: str, length: int = 40) -> tuple[str, str]:
-    """Two labels of at most so many characters, cut so that what differs is seen."""
+    """Two labels cut to a length so that what differs is seen.
+
+    a: the first label.
+    b: the second label.
+    length: the most characters of each.
+    """
     if max(len(a), len(b)) <= length:
         return a, b
     common = next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), 0)

@@ -31,12 +31,14 @@ LAYER = 2.5
 class SewnCloth:
     """One cloth of a garment: pieces that seams join.
 
+    cloth: its particles and springs.
     start: where its particles begin [m], shape [N, 3].
-    pieces: how it is drawn. drawn: the particle at each vertex of each piece, each [V].
+    pieces: how it is drawn.
+    drawn: the particle at each vertex of each piece, each of shape [V].
+    fabric: of its garment.
     bones: what each pinned particle is fastened to, in the order of the particles.
     solid: the bones that stop it; None for all.
-    fabric: of its garment.
-    distance: twice that of its particles from what it meets [m].
+    distance: twice the distance of its particles from what it meets [m].
     order: of its garment among those of one wearer; higher ones lie outside lower ones.
     """
 
@@ -95,6 +97,9 @@ class SewnCloth:
 
 def tailor(garment: Garment, packs: Packs) -> tuple[SewnCloth, ...]:
     """The cloths of a garment and of those over it, at rest on a wearer at rest.
+
+    garment: the innermost garment.
+    packs: resource packs, see `drapery.packs.open_packs`.
 
     Raises OptionError for seams and pins that do not fit, DesignError and PackError.
     """

@@ -719,7 +719,10 @@ class Garment(GarmentTable):
         return any((each.texture or self.texture).source == "design" for each in self.piece)
 
     def settings(self, **options: Any) -> Settings:
-        """The settings of its picture. options: those that replace its own. Raises OptionError."""
+        """The settings of its picture. options: those that replace its own.
+
+        Raises OptionError.
+        """
         return settled(Settings(**options), Subject("garment"), own=self.picture)
 
     @property

@@ -38,7 +38,10 @@ WING = {"front": (24.0, 2.0, 10.0, 20.0), "back": (36.0, 2.0, 10.0, 20.0), "shee
 
 
 def make_wearer(**fields: Any) -> GarmentWearer:
-    """A wearer of these fields. Raises OptionError."""
+    """A wearer of these fields.
+
+    Raises OptionError.
+    """
     try:
         return GarmentWearer(**fields)
     except ValidationError as error:
@@ -53,14 +56,18 @@ def dressed_player(
     wear: Sequence[str | Path | Garment] = (),
     folder: Path = Path(),
 ) -> Garment:
-    """A player that wears garments, the first of them innermost.
+    """A player that wears garments.
 
     What hangs behind the shoulders lies over all of them but those around the neck.
+
+    wearer: the player.
     cape: the PNG file of a cape, 64 x 32 or a multiple; unless given, the cape of the profile that
-    is the wearer's skin. elytra: wings of cloth in place of the cape, with the texture of `cape` if
-    that is given. wear: garments, or their names or files. folder: where relative paths of the
-    wearer and of a profile start. Raises OptionError for garments, profiles and motions that
-    cannot be used.
+        is the wearer's skin.
+    elytra: wings of cloth in place of the cape, with the texture of `cape` if there is one.
+    wear: garments, or their names or files, the first of them innermost.
+    folder: where relative paths of the wearer and of a profile start.
+
+    Raises OptionError for garments, profiles and motions that cannot be used.
     """
     texture = _texture_behind(cape, elytra, profile_of(wearer.skin, folder))
     worn = [each if isinstance(each, Garment) else find_garment(each) for each in wear]
@@ -127,9 +134,13 @@ def _over_chestplate(garment: Garment) -> Garment:
 
 
 def player_of(settings: PlayerSettings, folder: Path = Path()) -> Garment:
-    """A player with all that it wears. folder: relative paths start here.
+    """A player with all that it wears.
 
-    Raises OptionError, and DesignError for designs that cannot be read.
+    settings: its options.
+    folder: relative paths start here.
+
+    Raises OptionError for options that do not fit together, and DesignError for designs that cannot
+    be read.
     """
     same = ("skin", "arms", "overlay", "motion", "speed", "shown", "head", "shield", "armor")
     given = {name: getattr(settings, name) for name in (*same, "trim")}
@@ -159,7 +170,13 @@ def skin_names() -> tuple[str, ...]:
 
 
 def check_skin(path: Path, widest: int) -> None:
-    """Raise OptionError or PackError unless a PNG file is a skin. widest: its limit [px]."""
+    """Check that a file is a skin.
+
+    path: a PNG file.
+    widest: the largest width [px].
+
+    Raises OptionError for other sizes, PackError for a file that is no PNG.
+    """
     texels = read_png_file(path, "skin")
     if texels.shape[1] > widest:
         raise OptionError(f"skin is {texels.shape[1]} px wide; use at most {widest} px")

@@ -26,9 +26,13 @@ WALL = "minecraft:spruce_planks"
 
 @dataclass(frozen=True)
 class Mural:
-    """`across` x `down` banners on a wall, row by row from the top, seen from the south.
+    """Banners on a wall, seen from the south.
 
-    Raises OptionError unless there are as many banners.
+    across: banners in a row.
+    down: rows.
+    banners: row by row from the top.
+
+    Raises OptionError for another number of banners.
     """
 
     across: int
@@ -43,7 +47,13 @@ class Mural:
             )
 
     def picture(self, packs: Packs, *, scale: int = 4) -> Frame:
-        """The plain faces as they hang, `scale` pixels for each texel. Raises PackError."""
+        """The plain faces as they hang.
+
+        packs: resource packs, see `drapery.packs.open_packs`.
+        scale: pixels for each texel.
+
+        Raises PackError for a texture that cannot be used.
+        """
         size = (self.down - 1) * PITCH[1] + HEIGHT, (self.across - 1) * PITCH[0] + WIDTH
         pixels = np.zeros((size[0] * scale, size[1] * scale, 4), np.uint8)
         for number, banner in enumerate(self.banners):
@@ -92,7 +102,13 @@ class Mural:
 
 
 def check_mural_size(across: int, down: int) -> None:
-    """Raise OptionError unless a mural may have so many banners across and down."""
+    """Check how many banners a mural has.
+
+    across: banners in a row.
+    down: rows.
+
+    Raises OptionError for more than a mural may have, or none.
+    """
     if across < 1 or down < 1 or across * down > MAX_BANNERS:
         raise OptionError(
             f"a mural has 1 to {MAX_BANNERS} banners, not {across} x {down}; change its size"

@@ -343,9 +343,12 @@ def _meeting(side: tuple[float, float], end: tuple[float, float]) -> Corner:
 
 
 def flat_face(picture: Pixels, corners: Sequence[Corner]) -> Pixels:
-    """The flag of a photo [H, W, 3] set upright, uint8 [40, 20, 3].
+    """The flag of a photo set upright, uint8, shape [40, 20, 3].
 
-    corners: upper left, upper right, lower right, lower left. Raises OptionError.
+    picture: the photo, shape [H, W, 3].
+    corners: upper left, upper right, lower right, lower left.
+
+    Raises OptionError for corners that a flag cannot have.
     """
     face = PhotoView(checked_picture(picture), as_corners(corners)).face()
     return np.rint(face).astype(np.uint8).reshape(HEIGHT, WIDTH, 3)

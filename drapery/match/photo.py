@@ -99,15 +99,20 @@ def match_photo(
 ) -> list[Match]:
     """The designs that a banner in a photo or screenshot most likely has, best first.
 
-    The light is estimated, which changes smoothly over the cloth. So is how the cloth bends between
-    its corners.
+    The light, which changes smoothly over the cloth, is estimated. So is how the cloth bends
+    between its corners. The error of each design is the mean distance of its face from the one that
+    was seen, in OKLab.
 
-    picture: sRGB, uint8 [H, W, 3] or [H, W, 4]. corners: of the flag as one sees it, upper left,
-    upper right, lower right, lower left [pixels right, pixels down]; None finds them, before a
-    background of one colour. layers: the most layers, 0 to 16. packs, format: as in `Settings`.
-    alternatives: the most designs. The error of each is the mean distance of its face from the one
-    that was seen, in OKLab.
-    Raises OptionError, also where no flag is found, or PackError.
+    picture: sRGB, uint8, shape [H, W, 3] or [H, W, 4].
+    corners: of the flag as one sees it, upper left, upper right, lower right, lower left [pixels
+        right, pixels down]; None finds them, before a background of one colour.
+    layers: the most layers, 0 to 16.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    format: pack format of the game's version, see `drapery.packs.open_packs`.
+    alternatives: the most designs.
+
+    Raises OptionError for a wrong argument and where no flag is found, PackError for a pack that
+    cannot be used.
     """
     within("layers", layers, 0, MAX_LAYERS, "layers")
     within("alternatives", alternatives, 1, MAX_ALTERNATIVES, "designs")

@@ -52,8 +52,8 @@ _ALIKE = UNIT // 10
 class PictureFace:
     """A picture at the size of a face.
 
-    face: sRGB, uint8 [40, 20, 3]. weights: how much each texel counts, [40, 20], 0 where nothing
-    is shown.
+    face: sRGB, uint8, shape [40, 20, 3].
+    weights: how much each texel counts, shape [40, 20], 0 where nothing is shown.
     """
 
     face: Pixels
@@ -72,9 +72,12 @@ def read_pixels(path: str | Path) -> Texels:
 
 
 def decode_pixels(data: bytes, name: str = "the picture") -> Texels:
-    """The pixels of the bytes of a PNG, JPEG or WebP file, upright, uint8 [H, W, 4].
+    """The pixels of the bytes of a picture, upright, uint8, shape [H, W, 4].
 
-    name: the picture's name in errors. Raises OptionError.
+    data: those of a PNG, JPEG or WebP file.
+    name: the picture's name in errors.
+
+    Raises OptionError for other bytes, and for a picture that is too large.
     """
     if len(data) > MAX_BYTES:
         raise OptionError(f"{name} has over {MAX_BYTES >> 20} MB; shrink it")
@@ -97,13 +100,17 @@ def fit_picture(
     weighting: Weighting = "even",
     name: str = "the picture",
 ) -> PictureFace:
-    """A picture [H, W, 4] at the size of a face.
+    """A picture at the size of a face.
 
+    pixels: the picture, shape [H, W, 4].
     fit: `cover` cuts off what does not fit, `contain` leaves empty stripes, `stretch` distorts.
-    crop: left, top, right and bottom of the part to use [px]. background: sRGB behind transparent
-    pixels and in empty stripes; None gives them no weight. mask: a picture that is bright where
-    pixels count, and of the same size. weighting: `even`, or more in the `centre` or at `edges`.
-    name: the picture's name in errors. Raises OptionError.
+    crop: left, top, right and bottom of the part to use [px].
+    background: sRGB behind transparent pixels and in empty stripes; None gives them no weight.
+    mask: a picture of the same size that is bright where pixels count, shape [H, W, 4].
+    weighting: `even`, or more in the `centre` or at `edges`.
+    name: the picture's name in errors.
+
+    Raises OptionError for a wrong argument.
     """
     (part,) = _windows(pixels, [(0, 0)], (WIDTH, HEIGHT), fit, crop, name)
     counts = np.ones((HEIGHT, WIDTH))
@@ -128,10 +135,20 @@ def fit_mural(
     background: tuple[int, int, int] | None = None,
     name: str = "the picture",
 ) -> list[PictureFace]:
-    """The faces of `across` x `down` banners on a wall that show one picture, row by row.
+    """The faces of the banners on a wall that show one picture, row by row.
 
     Banners hang one block apart and two blocks below each other. What lies between their cloths is
-    not shown. The options are those of `fit_picture`. Raises OptionError.
+    not shown.
+
+    pixels: the picture, shape [H, W, 4].
+    across: banners in a row.
+    down: rows.
+    fit: see `fit_picture`.
+    crop: left, top, right and bottom of the part to use [px].
+    background: sRGB behind transparent pixels and in empty stripes; None gives them no weight.
+    name: the picture's name in errors.
+
+    Raises OptionError for a wrong argument.
     """
     corners = [(x * PITCH[0], y * PITCH[1]) for y in range(down) for x in range(across)]
     size = (across - 1) * PITCH[0] + WIDTH, (down - 1) * PITCH[1] + HEIGHT

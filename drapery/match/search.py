@@ -38,8 +38,9 @@ _APART = UNIT // 100
 class Match:
     """A design, and how far its face is from the one that was given.
 
+    banner: the design.
     error: the weighted mean of the distances between colours in OKLab: 0 for the same face, 1 for
-    black in place of white.
+        black in place of white.
     """
 
     banner: Banner
@@ -48,7 +49,11 @@ class Match:
 
 @dataclass(frozen=True)
 class MatchProgress:
-    """How much of a search is done, 0 to 1, and the best designs so far, best first."""
+    """How much of a search is done.
+
+    share: the part that is done, 0 to 1.
+    matches: the best designs up to here, best first.
+    """
 
     share: float
     matches: tuple[Match, ...]
@@ -57,7 +62,10 @@ class MatchProgress:
 class Matcher:
     """Finds designs in the look of one stack of packs; it prepares the packs once.
 
-    packs, format: as in `Settings`. Raises OptionError or PackError.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    format: pack format of the game's version, see `drapery.packs.open_packs`.
+
+    Raises OptionError for a wrong format, PackError for a pack that cannot be used.
     """
 
     def __init__(
@@ -75,7 +83,16 @@ class Matcher:
         alternatives: int = 5,
         effort: int = EFFORT,
     ) -> list[Match]:
-        """The designs whose plain faces look most like a face, best first. See `match`."""
+        """The designs whose plain faces look most like a face, best first. See `match`.
+
+        face: sRGB, uint8, shape [40, 20, 3].
+        layers: the most layers, 0 to 16.
+        weights: how much each texel counts, shape [40, 20], from 0; None counts all alike.
+        alternatives: the most designs.
+        effort: how many designs are changed at random and improved.
+
+        Raises OptionError for a face or weights of another shape and numbers out of range.
+        """
         found: tuple[Match, ...] = ()
         for progress in self.iter_matches(
             face, layers=layers, weights=weights, alternatives=alternatives, effort=effort
@@ -94,7 +111,15 @@ class Matcher:
     ) -> Iterator[MatchProgress]:
         """The state of the search of `match` again and again, until it is done.
 
-        The arguments are checked before this returns. Raises OptionError.
+        The arguments are checked before this returns.
+
+        face: sRGB, uint8, shape [40, 20, 3].
+        layers: the most layers, 0 to 16.
+        weights: how much each texel counts, shape [40, 20], from 0; None counts all alike.
+        alternatives: the most designs.
+        effort: how many designs are changed at random and improved.
+
+        Raises OptionError for a face or weights of another shape and numbers out of range.
         """
         within("layers", layers, 0, MAX_LAYERS, "layers")
         within("alternatives", alternatives, 1, MAX_ALTERNATIVES, "designs")
@@ -142,13 +167,18 @@ def match(
 ) -> list[Match]:
     """The designs whose plain faces look most like a given face, best first.
 
-    face: sRGB, uint8 [40, 20, 3]. layers: the most layers, 0 to 16. packs, format: as in
-    `Settings`; the designs are those that look so with these packs. weights: how much each texel
-    counts, [40, 20], from 0; None counts all alike. alternatives: the most designs.
-    effort: how many designs are changed at random and improved.
     If a design shows exactly this face, where texels count, it is first, with the fewest layers
     that the search found; not so if fewer than three texels in four count.
-    Raises OptionError or PackError.
+
+    face: sRGB, uint8, shape [40, 20, 3].
+    layers: the most layers, 0 to 16.
+    packs: resource packs, see `drapery.packs.open_packs`; the designs look so with these.
+    format: pack format of the game's version, see `drapery.packs.open_packs`.
+    weights: how much each texel counts, shape [40, 20], from 0; None counts all alike.
+    alternatives: the most designs.
+    effort: how many designs are changed at random and improved.
+
+    Raises OptionError for a wrong argument, PackError for a pack that cannot be used.
     """
     matcher = Matcher(packs, format=format)
     return matcher.match(

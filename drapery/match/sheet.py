@@ -17,9 +17,14 @@ SCALE = 8
 def matches_sheet(
     face: Pixels, matches: Sequence[Match], packs: Packs, *, scale: int = SCALE
 ) -> PictureSheet:
-    """A face, uint8 [40, 20, 3], and beside it the banners that were found for it.
+    """A face and beside it the banners that were found for it.
 
-    scale: pixels for each texel of a 64 x 64 pack. Raises PackError.
+    face: sRGB, uint8, shape [40, 20, 3].
+    matches: what was found.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    scale: pixels for each texel of a 64 x 64 pack.
+
+    Raises PackError for a texture that cannot be used.
     """
     large = np.asarray(face).repeat(scale, axis=0).repeat(scale, axis=1)
     cells = [SheetCell("picture", np.dstack([large, np.full_like(large[..., 0], 255)]))]

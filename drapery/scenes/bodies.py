@@ -78,11 +78,16 @@ MAX_CACHED = 16 << 20
 class ClothSpec:
     """How the cloth of a panel is made. Equal specs make equal cloths.
 
-    shape: particles across and down. size: width and height [m]. pins: which particles are pinned.
-    solver: its name, or a Solver. fabric: its name, or a Fabric; None is the default of `grid`.
-    solids: what it cannot enter, in its own frame. itself: whether it also meets itself.
-    thickness: of the cloth [m]. fullness: how much wider the cloth is than its top edge, on which
-    it is gathered; only if it is pinned along the top, on a grid that is fine enough for folds.
+    shape: particles across and down.
+    size: width and height [m].
+    pins: which particles are pinned.
+    solver: its name, or a Solver.
+    fabric: its name, or a Fabric; None is the default of `grid`.
+    solids: what it cannot enter, in its own frame.
+    itself: whether it also meets itself.
+    thickness: of the cloth [m].
+    fullness: how much wider the cloth is than its top edge, on which it is gathered; only if it is
+        pinned along the top, on a grid that is fine enough for folds.
     """
 
     shape: tuple[int, int]
@@ -96,7 +101,10 @@ class ClothSpec:
     fullness: float = 0.0
 
     def make_cloth(self) -> Cloth:
-        """The cloth at rest, which is flat. Raises OptionError."""
+        """The cloth at rest, which is flat.
+
+        Raises OptionError.
+        """
         width, height = self.size
         fabric = FABRICS[self.fabric] if isinstance(self.fabric, str) else self.fabric or Fabric()
         fabric = shown_fabric(fabric, height / (self.shape[1] - 1))
@@ -109,7 +117,10 @@ class ClothSpec:
         return gathered_state(cloth, self.size[0])
 
     def make_solver(self) -> Solver:
-        """The solver. Raises OptionError for a name that is not known."""
+        """The solver.
+
+        Raises OptionError for a name that is not known.
+        """
         return solver(self.solver) if isinstance(self.solver, str) else self.solver
 
     def make_collisions(self) -> Collisions | None:
@@ -137,14 +148,25 @@ def shown_fabric(fabric: Fabric, cell: float) -> Fabric:
 
 
 def cloth_at_rest(spec: ClothSpec, step: float = STEP) -> MovingCloth:
-    """The cloth at time 0, as it hangs before its first time step [s]. Raises OptionError."""
+    """The cloth at time 0, as it hangs before its first time step.
+
+    spec: how the cloth is made.
+    step: the time step [s].
+
+    Raises OptionError for a cloth or solver that cannot be made.
+    """
     cloth, met = spec.make_cloth(), spec.make_collisions()
     start = spec.hang(cloth)
     return MovingCloth.begin(cloth, spec.make_solver(), step, start=start, collisions=met)
 
 
 def cloth_spec(panel: Panel, settings: Settings, solids: Sequence[Solid] = ()) -> ClothSpec:
-    """How the settings make a panel's cloth. solids: of its body, see `Body`."""
+    """How the settings make a panel's cloth.
+
+    panel: where the cloth hangs.
+    settings: the options of the picture.
+    solids: of its body, see `Body`.
+    """
     pins = settings.pins or panel.pins
     met = solids if settings.contact != "none" else ()
     x, y, z = map(float, panel.origin)
@@ -163,9 +185,13 @@ def _less(corner: tuple[float, float, float], *origin: float) -> tuple[float, fl
 class StagedBody:
     """A body in its staging, and how it is drawn where its cloth is.
 
-    cover: makes the thick cloth of a shell, a sheet [m], [N, 3], and a thickness [m].
     times: cells that are drawn along each cell of the simulated grid.
-    Raises OptionError.
+
+    body: what is drawn.
+    settings: the options of the picture.
+    cover: makes the thick cloth of a shell, a sheet [m], [N, 3], and a thickness [m].
+
+    Raises OptionError for options that do not fit the body.
     """
 
     step = STEP
@@ -201,7 +227,12 @@ class StagedBody:
         return [*self.parts, *map(self.staging.turned, boards)]
 
     def models(self, meshes: Sequence[Mesh], time: float, body: Body | None = None) -> list[Model]:
-        """The meshes with the materials of a time [s]; body: another one, which gives them."""
+        """Meshes with the materials of a body.
+
+        meshes: one for each part and panel.
+        time: of animated textures [s].
+        body: another one, which gives the materials.
+        """
         shown = body or self.body
         materials = [part.material_at(time) for part in shown.parts]
         materials += [self._material(panel.piece, time) for panel in shown.panels]
@@ -233,7 +264,11 @@ class StagedBody:
         """Where the cloth of each panel is at the moments of a schedule [m], each [F, N, 3].
 
         None where the settings have the game's own stiff pose.
-        on_moment: see `recording.record`. Raises OptionError.
+
+        at: the moments.
+        on_moment: see `recording.record`.
+
+        Raises OptionError for cloth that cannot be moved.
         """
         settings = self.staging.settings
         specs = tuple(_specs(self.body, settings)) if settings.pose == "cloth" else ()
@@ -250,7 +285,10 @@ class StagedBody:
         """The scene of each picture of a schedule.
 
         A loop of what does not move is shown from all around.
-        motions: where the cloth of each panel is [m], each [F, N, 3]; none in a stiff pose.
+
+        motions: where the cloth of each panel is [m], each of shape [F, N, 3]; none in a stiff
+            pose.
+        at: the moments.
         """
         is_cloth = self.staging.settings.pose == "cloth"
         if is_cloth:
@@ -304,9 +342,15 @@ class StagedBody:
 class LiveBody(StagedBody):
     """A body at one moment; `advance` steps its cloth.
 
+    wind: the wind from now on.
+    steps: how many time steps have been made.
+
+    body: what is drawn.
+    settings: the options of the picture.
     cloths: one for each panel; at rest unless given, none for the game's own stiff pose.
-    wind: the wind from now on. steps: how many time steps have been made.
-    cover: see `StagedBody`. Raises OptionError.
+    cover: see `StagedBody`.
+
+    Raises OptionError for options that do not fit the body.
     """
 
     def __init__(
@@ -394,7 +438,11 @@ def _specs(body: Body, settings: Settings) -> list[ClothSpec]:
 
 
 def flow(speed: float, direction: float | None) -> tuple[float, float, float]:
-    """The mean wind on a body that is not turned [m/s]; direction [degrees]: see `Settings`."""
+    """The mean wind on a body that is not turned [m/s].
+
+    speed: of the wind [m/s].
+    direction: where it blows to [degrees], see `Settings`.
+    """
     along = unit(np.array(WIND_AXIS))
     if direction is not None:
         heading = math.radians(direction)
@@ -406,6 +454,7 @@ def flow(speed: float, direction: float | None) -> tuple[float, float, float]:
 def wind_of(settings: Settings, period: float | None = None) -> Wind:
     """The wind of the settings, in the frame of the panels; its ripples are as strong as its gusts.
 
+    settings: the options of the picture.
     period: it repeats after this time [s]; all else of a Wind that is given stays.
     """
     given, gusts = settings.wind, settings.gusts

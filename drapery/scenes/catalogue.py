@@ -21,8 +21,12 @@ _PACKAGE = __name__.rpartition(".")[0]
 
 @dataclass(frozen=True)
 class Clip:
-    """The size and length of a film. size: width and height [pixels]. count: frames.
-    fps: frames per second."""
+    """The size and length of a film.
+
+    size: width and height [pixels].
+    count: number of frames.
+    fps: [frames/s].
+    """
 
     size: tuple[int, int] = (480, 480)
     count: int = 80
@@ -31,7 +35,12 @@ class Clip:
 
 @dataclass(frozen=True)
 class SceneEntry:
-    """One scene of the catalogue."""
+    """One scene of the catalogue.
+
+    name: as in `drapery scene NAME`.
+    summary: what it shows, in one line.
+    module: where it is defined.
+    """
 
     name: str
     summary: str
@@ -44,12 +53,19 @@ class SceneEntry:
         return own
 
     def parameters(self, words: Mapping[str, str] | None = None) -> SceneParameters:
-        """The scene's parameters. words: those that are given, as text. Raises OptionError."""
+        """The scene's parameters. words: those that are given, as text.
+
+        Raises OptionError.
+        """
         kind: type[SceneParameters] = get_type_hints(self.module.play)["parameters"]
         return read_parameters(kind, words or {}, self.name)
 
     def play(self, parameters: SceneParameters, clip: Clip) -> Iterator[ClipPicture]:
-        """One picture for each frame of the clip."""
+        """One picture for each frame of a film.
+
+        parameters: the values of the scene's own options.
+        clip: size and length of the film.
+        """
         pictures: Iterator[ClipPicture] = self.module.play(parameters, clip)
         return pictures
 
@@ -61,7 +77,10 @@ def scene_names() -> list[str]:
 
 
 def find_scene(name: str) -> SceneEntry:
-    """The scene of this name. Raises OptionError if there is none."""
+    """The scene of this name.
+
+    Raises OptionError if there is none.
+    """
     known = scene_names()
     if name not in known:
         raise OptionError(f"scene {shown(name)} is not known; use one of: {', '.join(known)}")

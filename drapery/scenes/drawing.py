@@ -22,9 +22,16 @@ def scene_frames(
     last: bool = False,
     style: StyleLike | Iterable[StyleLike] = (),
 ) -> Iterator[Frame]:
-    """The frames of a ready-made scene, or only its last, drawn one by one in a style.
+    """The frames of a ready-made scene, drawn one by one.
 
-    Raises OptionError or BackendError.
+    scene: one of the catalogue.
+    parameters: the values of the scene's own options.
+    clip: size and length of the film.
+    backend: see `drapery.render.backend`.
+    last: draws only the last frame.
+    style: a style, or several in their order.
+
+    Raises OptionError or BackendError for what cannot be drawn.
     """
     OPTIONS["size"].check(clip.size)
     draw_scene, chosen = backend_named(backend), combined_style(style)

@@ -74,10 +74,14 @@ FRICTION = 0.6
 class Dressed:
     """A garment with its wearer, poles and blocks, ready to be simulated and drawn.
 
+    Its methods raise OptionError and PackError.
+
+    garment: what is worn or hangs.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    settings: the options of the picture.
     period: of a loop [s]; None for other pictures.
     cycle: time steps before the wearer repeats its motion, and after which it does; None where it
         repeats nothing but the loop.
-    Its methods raise OptionError and PackError.
     """
 
     garment: Garment
@@ -155,7 +159,11 @@ class Dressed:
         return ROUNDING
 
     def colliders(self, sewn: SewnCloth, *others: SewnCloth) -> tuple[Collider, ...]:
-        """What a cloth, and others that meet it, are stopped by, in the garment's own frame."""
+        """What stops a cloth, and others that meet it, in the garment's own frame.
+
+        sewn: the cloth.
+        others: those that it meets.
+        """
         friction, texel = self.garment.fabric.friction, self.garment.texel
         found = [Collider(Plane(np.zeros(3), np.array([0.0, 1, 0])), friction=FRICTION)]
         for block in self.garment.block:
@@ -175,7 +183,11 @@ class Dressed:
         return tuple(found)
 
     def forces(self, sewn: SewnCloth, period: float | None) -> tuple[Force, ...]:
-        """All forces on the cloth."""
+        """All forces on a cloth.
+
+        sewn: the cloth.
+        period: the wind repeats after this time [s]; None for a wind that does not.
+        """
         return (*in_wind(sewn.cloth, self.wind(period)), *self.settings.forces)
 
     def wind(self, period: float | None) -> Wind:
@@ -201,8 +213,9 @@ class Dressed:
     def record(
         self, at: Schedule, on_moment: Callable[[int, int], object] | None = None
     ) -> Sequence[Vectors]:
-        """Where each cloth is at the moments of a schedule [m], each [F, N, 3].
+        """Where each cloth is at the moments of a schedule [m], each of shape [F, N, 3].
 
+        at: the moments.
         on_moment: see `recording.record`.
         """
         drapes = [self.drape(sewn) for sewn in self.cloths]
@@ -230,7 +243,8 @@ class Dressed:
     def scenes(self, motions: Sequence[Vectors], at: Schedule) -> Iterator[Scene]:
         """The scene of each picture of a schedule; the figure of a loop is as it is after settling.
 
-        motions: where each cloth is in them [m], each [F, N, 3].
+        motions: where each cloth is in them [m], each of shape [F, N, 3].
+        at: the moments.
         """
         staging = Staging(self.settings, self._ground())
         moments = [

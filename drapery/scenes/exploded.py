@@ -14,7 +14,14 @@ GAP = 0.6
 
 
 def exploded_view(banner: Banner, packs: Packs, settings: Settings) -> Scene:
-    """The layers in a row, the lowest at the back. Raises PackError."""
+    """The layers in a row, the lowest at the back.
+
+    banner: the design.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    settings: the options of the picture.
+
+    Raises PackError for a texture that cannot be used.
+    """
     cloth, base, *layers = flag_layers(banner, packs)
     # Cloth and base dye are one sheet, because the cloth is never seen without a dye.
     ground = Material(tuple(TextureLayer(texels, tint) for texels, tint in (cloth, base)))

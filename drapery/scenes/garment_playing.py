@@ -40,6 +40,10 @@ SWINGS = np.array(((0.0, 0.0, 0.0), (0.2, 0.0, -0.2), (-0.2, 0.2, -0.7)))
 def repeating_garment(garment: Garment, packs: Packs, settings: Settings) -> Dressed:
     """A garment whose wearer repeats its motion after whole time steps, to be played.
 
+    garment: what is worn or hangs.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    settings: the options of the picture.
+
     Raises OptionError or PackError for what cannot be played.
     """
     worn = Dressed(garment, packs, settings, *_cycle_of(garment))
@@ -71,7 +75,9 @@ def repeating_garment(garment: Garment, packs: Packs, settings: Settings) -> Dre
 def played_garment(worn: Dressed) -> PlayedSubject:
     """The cloths and the wearer of a garment at the start, in the wind of its settings.
 
-    worn: see `repeating_garment`. Raises OptionError for cloth that cannot be played.
+    worn: see `repeating_garment`.
+
+    Raises OptionError for cloth that cannot be played.
     """
     staging = Staging(worn.settings)
     figure = None if worn.wearer is None else _figure(worn, worn.wearer, staging)

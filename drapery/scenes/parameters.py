@@ -63,7 +63,10 @@ def seed_parameter() -> Any:
 
 @dataclass(frozen=True)
 class SceneParameters:
-    """The base of all scenes' parameters. Raises OptionError that names the parameter."""
+    """The base of all scenes' parameters.
+
+    Raises OptionError that names the parameter.
+    """
 
     def __post_init__(self) -> None:
         for each in fields(self):

@@ -15,7 +15,12 @@ INK, PAPER = (255, 255, 255), (24, 26, 34)
 
 @dataclass(frozen=True)
 class PictureGrid:
-    """Pictures in rows of `columns`, all of one size, each with a label in its lower left."""
+    """Pictures in rows, all of one size, each with a label in its lower left.
+
+    pictures: scenes or finished frames, row by row.
+    labels: one for each picture.
+    columns: pictures in a row.
+    """
 
     pictures: tuple[Scene | Frame, ...]
     labels: tuple[str, ...]

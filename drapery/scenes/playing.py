@@ -52,6 +52,8 @@ class LiveKernel:
     """A call that a host makes: a compiled function that returns 0, and its arguments.
 
     name: of the function for these types of arguments.
+    function: the function.
+    arguments: what it is called with.
     """
 
     name: str
@@ -63,12 +65,12 @@ class LiveKernel:
 class LivePanel:
     """A panel of cloth at the start of its motion.
 
-    header: what a host wants to know, for JSON. calls: by what they do: `aim` turns the wind,
-    `play` makes time steps, `cover` writes the vertices of the thick cloth; see `live_panels` for
-    `pose`, and `live_picture` for `draw`.
+    header: facts for a host, for JSON.
+    calls: by what they do: `aim` turns the wind, `play` makes time steps, `cover` writes the
+        vertices of the thick cloth; see `live_panels` for `pose`, and `live_picture` for `draw`.
     arrays: parts of the arguments that the host reads and writes, by name.
     functions: what kernels call by an address, and an example of its arguments; fields of named
-    tuples that hold such an address have the name of the function.
+        tuples that hold such an address have the name of the function.
     """
 
     header: Mapping[str, Any]
@@ -81,12 +83,16 @@ class LivePanel:
 class PlayedCloth:
     """A cloth at the start of its motion, and how a host moves and draws it.
 
-    moving: the cloth. forces: on it, with one wind.
-    wind: the free wind, which a host may turn. lee, motion: see `live_call`.
-    shell: the surface around its particles. thickness: of the cloth [m].
-    finer: that around curves through them; None for the one around them.
+    moving: the cloth.
+    forces: on it, with one wind.
+    wind: the free wind, which a host may turn.
+    shell: the surface around its particles.
+    thickness: of the cloth [m].
     place: of its own frame in the picture [m], shape [3].
-    header: what hosts also want to know, for JSON.
+    finer: the surface around curves through the particles; None for the one around them.
+    lee: see `live_call`.
+    motion: see `live_call`.
+    header: further facts for hosts, for JSON.
     """
 
     moving: MovingCloth
@@ -105,7 +111,9 @@ class PlayedCloth:
 class PlayedSubject:
     """A subject at the start of its motion, which plays on without Python.
 
-    cloths: those that move. figure: who wears them.
+    staging: its light, cameras, ground and shadow.
+    cloths: those that move.
+    figure: who wears them.
     """
 
     staging: Staging
@@ -117,7 +125,12 @@ def played_body(body: Body, settings: Settings) -> PlayedSubject:
     """A body to be played in the wind of the settings; its cloth passes through itself.
 
     A hand may pull it, and does not feel what is in its way: cloth that it has pulled through
-    itself could not come back. Raises OptionError for settings that cannot be played.
+    itself could not come back.
+
+    body: what is drawn.
+    settings: the options of the picture.
+
+    Raises OptionError for settings that cannot be played.
     """
     pulled = settings.changed(contact="world") if settings.contact == "all" else settings
     staged = StagedBody(body, pulled)
@@ -127,10 +140,13 @@ def played_body(body: Body, settings: Settings) -> PlayedSubject:
 
 
 def live_panels(played: PlayedSubject, lanes: int | None = None) -> list[LivePanel]:
-    """The cloths of a subject. The first also has its figure, if there is one: the call `pose`
-    writes the arrays `figure` and `figureLight`.
+    """The cloths of a subject. The first also has its figure, if there is one.
 
+    With a figure, the call `pose` writes the arrays `figure` and `figureLight`.
+
+    played: the subject at the start of its motion.
     lanes: of the arrays; by default a register of this processor.
+
     Raises OptionError for cloth that cannot be played without Python.
     """
     panels = [_live_panel(cloth, played.staging, lanes) for cloth in played.cloths]
@@ -145,7 +161,12 @@ def live_picture(body: Body, settings: Settings, lanes: int | None = None) -> Li
     Only for bodies of one panel, without shadows. The camera frames the cloth at `settings.time`.
     The header has `picture`, its width and height; and `steps`, after which the cloth is that of
     the still. The host may replace `materials`, `layers` and `atlas`; the layers end with SPARE
-    rows of zeros. lanes: see `live_panels`.
+    rows of zeros.
+
+    body: what is drawn.
+    settings: the options of the picture.
+    lanes: see `live_panels`.
+
     Raises OptionError for settings that cannot be played or drawn without Python.
     """
     staged = StagedBody(body, settings)

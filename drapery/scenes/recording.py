@@ -25,8 +25,8 @@ class Schedule:
     every: time steps from one moment to the next.
     moments: the numbers of those that are recorded; 0 is the start.
     times: when the pictures are [s], one a picture.
-    fps: frames per second of a loop, after which the wind repeats; None for other pictures.
-    fade: so many moments are recorded before a loop, whose end fades into them.
+    fps: [frames/s] of a loop, after which the wind repeats; None for other pictures.
+    fade: number of moments that are recorded before a loop, whose end fades into them.
     """
 
     dt: float
@@ -43,10 +43,12 @@ class Schedule:
 
     @staticmethod
     def still(time: float, step: float, tolerance: float = 0.0) -> "Schedule":
-        """One picture, exactly at a time [s].
+        """One picture, exactly at a time.
 
-        step: the longest time step [s]. tolerance: the share of a step by which steps may be
-        longer, so that no step is added where a time is that of whole steps but for rounding.
+        time: when the picture is [s].
+        step: the longest time step [s].
+        tolerance: the share of a step by which steps may be longer, so that no step is added where
+            a time is that of whole steps but for rounding.
         """
         steps = math.ceil(time / step - tolerance)
         dt = time / steps if steps else step
@@ -54,7 +56,13 @@ class Schedule:
 
     @staticmethod
     def loop(count: int, fps: float, step: float, tolerance: float = 0.0) -> "Schedule":
-        """`count` pictures of a loop, when the cloth has settled. step, tolerance: see `still`."""
+        """The pictures of a loop, when the cloth has settled.
+
+        count: number of pictures.
+        fps: [frames/s].
+        step: the longest time step [s].
+        tolerance: see `still`.
+        """
         period = count / fps
         steps = math.ceil(1 / (fps * step) - tolerance)
         fade = min(count, math.ceil(FADE * fps))
@@ -65,7 +73,11 @@ class Schedule:
 
     @staticmethod
     def at(times: Sequence[float], step: float) -> "Schedule":
-        """Pictures at some times of one motion [s], its cloth at the nearest time steps [s]."""
+        """Pictures at some times of one motion, its cloth at the nearest time steps.
+
+        times: when the pictures are [s].
+        step: the longest time step [s].
+        """
         return Schedule(step, 1, tuple(round(time / step) for time in times), tuple(times))
 
 

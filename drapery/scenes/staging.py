@@ -23,10 +23,14 @@ SHOWN_GROUND = 0.4
 class Staging:
     """The light, cameras, ground and shadow of the settings, for any subject.
 
-    settings: with the light and samples of their style. style: their styles as one.
+    settings: with the light and samples of their style.
+    style: their styles as one.
+
     ground: the block below the subject or the wall behind it.
-    light: the light on the subject. own_camera: that of the subject; None if a view frames it.
-    Raises OptionError.
+    light: the light on the subject.
+    own_camera: the camera of the subject; None if a view frames it.
+
+    Raises OptionError for styles that cannot be used.
     """
 
     def __init__(
@@ -54,7 +58,11 @@ class Staging:
         return self.settings.size[0] / self.settings.size[1]
 
     def camera(self, points: Sequence[Vectors], aspect: float) -> Camera:
-        """The subject's own camera, or one that frames points [m], each [..., 3], in the view."""
+        """The subject's own camera, or one that frames points in the view.
+
+        points: [m], each of shape [..., 3].
+        aspect: width / height of the picture.
+        """
         if self.own_camera is not None:
             return self.own_camera
         return frame_view(self.settings.view, self.framed(points), aspect)
@@ -62,9 +70,12 @@ class Staging:
     def cameras(
         self, points: Sequence[Vectors], aspect: float, count: int, *, around: bool = False
     ) -> list[Camera]:
-        """The camera of each of `count` moments: the same one, or once around points [m].
+        """The camera of each moment: the same one, or once around.
 
-        around: goes around them also where the settings do not ask for it.
+        points: what the cameras frame [m], each of shape [..., 3].
+        aspect: width / height of the picture.
+        count: number of moments.
+        around: goes around the points also where the settings have no turntable.
         """
         if (around or self.settings.turntable) and self.own_camera is None:
             view = find_view(self.settings.view)
@@ -85,12 +96,21 @@ class Staging:
         return np.concatenate(more)
 
     def contact(self, models: Sequence[Model], floor: float) -> Model:
-        """The contact shadow of models on a floor [m], or on the block below them."""
+        """The contact shadow of models on a floor, or on the block below them.
+
+        models: what casts it.
+        floor: height of the floor [m].
+        """
         has_block = self.ground and self.settings.placement == "standing"
         return contact_shadow(models, floor, within=self._ground_extent() if has_block else None)
 
     def scene(self, models: Sequence[Model], camera: Camera, shadow: Model | None = None) -> Scene:
-        """The models in the light. shadow: that of the settings, made here unless given."""
+        """The models in the light.
+
+        models: what is drawn.
+        camera: from where it is seen.
+        shadow: of the settings, made here unless given.
+        """
         settings = self.settings
         if settings.shadow:
             under = shadow or self.contact(models, floor_under([m.mesh for m in models]))
@@ -116,7 +136,7 @@ class Staging:
 
         meshes: those of the models of each moment.
         models: each moment's, made when its scene is.
-        framed: points that the camera frames [m], each [..., 3]; all meshes unless given.
+        framed: points that the camera frames [m], each of shape [..., 3]; all meshes unless given.
         around: see `cameras`.
         """
         every = [mesh for moment in meshes for mesh in moment]

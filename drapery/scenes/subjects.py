@@ -37,15 +37,21 @@ class StagedSubject(Protocol):
     def record(
         self, at: Schedule, on_moment: Callable[[int, int], object] | None = None
     ) -> Sequence[Vectors]:
-        """Where each of its cloths is at the moments of a schedule [m], each [F, N, 3].
+        """Where each of its cloths is at the moments of a schedule [m], each of shape [F, N, 3].
 
-        on_moment: see `recording.record`. Raises OptionError.
+        at: the moments.
+        on_moment: see `recording.record`.
+
+        Raises OptionError for cloth that cannot be moved.
         """
 
     def scenes(self, motions: Sequence[Vectors], at: Schedule) -> Iterator[Scene]:
         """The scene of each picture of a schedule.
 
-        motions: where each cloth is in them [m], each [F, N, 3]. Raises OptionError or PackError.
+        motions: where each cloth is in them [m], each of shape [F, N, 3].
+        at: the moments.
+
+        Raises OptionError or PackError for what cannot be drawn.
         """
 
 
@@ -54,8 +60,12 @@ def subject_of(
 ) -> StagedSubject:
     """A design or garment in its staging.
 
-    design: None for a cape or elytra. period: of a loop [s], after which all motion repeats.
-    Raises OptionError or PackError.
+    design: None for a cape or elytra.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    settings: the options of the picture.
+    period: of a loop [s], after which all motion repeats.
+
+    Raises OptionError or PackError for what cannot be drawn.
     """
     if design is None or isinstance(design, Banner):
         return StagedBody(body_of(design, packs, settings), settings)
@@ -70,7 +80,11 @@ def stage(
 ) -> Iterator[Scene]:
     """The scenes of a schedule, when all cloth has moved.
 
-    on_moment: see `recording.record`. Raises OptionError or PackError.
+    subject: what is drawn.
+    at: the moments.
+    on_moment: see `recording.record`.
+
+    Raises OptionError or PackError for what cannot be drawn.
     """
     return subject.scenes(subject.record(at, on_moment), at)
 
@@ -78,7 +92,11 @@ def stage(
 def still(design: "Banner | Garment | None", packs: Packs, settings: Settings) -> Scene:
     """The scene after the cloth has been in the wind for `settings.time` seconds.
 
-    design: None for a cape or elytra. Raises OptionError or PackError.
+    design: None for a cape or elytra.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    settings: the options of the picture.
+
+    Raises OptionError or PackError for what cannot be drawn.
     """
     subject = subject_of(design, packs, settings)
     return next(stage(subject, Schedule.still(settings.time, subject.step, subject.tolerance)))
@@ -92,11 +110,19 @@ def loop(
     fps: float,
     on_moment: Callable[[int, int], object] | None = None,
 ) -> Iterator[Scene]:
-    """`count` scenes of a seamless loop: the last is followed by the first.
+    """The scenes of a seamless loop: the last is followed by the first.
 
     The wind repeats after the loop's length, and the cloth has settled into that period. A body
     that does not move is shown from all around.
-    design: None for a cape or elytra. on_moment: see `stage`. Raises OptionError or PackError.
+
+    design: None for a cape or elytra.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    settings: the options of the pictures.
+    count: number of scenes.
+    fps: [frames/s].
+    on_moment: see `stage`.
+
+    Raises OptionError or PackError for what cannot be drawn.
     """
     subject = subject_of(design, packs, settings, count / fps)
     return stage(subject, Schedule.loop(count, fps, subject.step, subject.tolerance), on_moment)
@@ -105,9 +131,14 @@ def loop(
 def moments(
     design: "Banner | Garment | None", packs: Packs, settings: Settings, times: Sequence[float]
 ) -> Iterator[Scene]:
-    """A scene at each of some times of one motion [s], its cloth at the nearest time steps.
+    """A scene at each of some times of one motion, its cloth at the nearest time steps.
 
-    design: None for a cape or elytra. Raises OptionError or PackError.
+    design: None for a cape or elytra.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    settings: the options of the pictures.
+    times: when the scenes are [s].
+
+    Raises OptionError or PackError for what cannot be drawn.
     """
     subject = subject_of(design, packs, settings)
     return stage(subject, Schedule.at(times, subject.step))

@@ -41,7 +41,13 @@ COMPASS = {0: "south", 4: "west", 8: "north", 12: "east"}
 
 
 def rotations_sheet(design: Banner | None, settings: Settings) -> PictureSheet:
-    """All sixteen rotations, by one camera. Raises OptionError, PackError or BackendError."""
+    """All sixteen rotations, by one camera.
+
+    design: a banner; None for a cape or elytra.
+    settings: the options of the pictures.
+
+    Raises OptionError, PackError or BackendError, as `drapery.draw` does.
+    """
     cells = tuple(
         SheetCell(f"{number} {COMPASS.get(number, '')}".rstrip(), frame.pixels)
         for number, frame in enumerate(_rotations(design, settings))
@@ -62,10 +68,14 @@ def _rotations(design: Banner | None, settings: Settings) -> list[Frame]:
 def packs_sheet(
     banner: Banner, paths: Sequence[str | Path], settings: Settings, *, scale: int | None = None
 ) -> PictureSheet:
-    """One design with our own art, and with each pack alone, drawn by the settings.
+    """One design with our own art, and with each pack alone.
 
+    banner: the design.
+    paths: those of the packs.
+    settings: the options of the pictures.
     scale: draws plain faces instead; it is the width of a texel of a 64 x 64 pack [pixels].
-    Raises OptionError, PackError or BackendError.
+
+    Raises OptionError, PackError or BackendError, as `drapery.draw` does.
     """
     stacks: list[tuple[str, tuple[str | Path, ...]]] = [("our own art", ())]
     stacks += [(Path(path).name or str(path), (path,)) for path in paths]
@@ -89,10 +99,13 @@ def styles_sheet(
 ) -> PictureSheet:
     """Designs in each style of the settings, or in all that are known if these have none.
 
-    designs: with several, each has a column, and each style and size a row.
+    designs: with several, each has a column, and each style and size a row; None for a cape or
+        elytra.
+    settings: the options of the pictures.
     moments: pictures of each style, BETWEEN seconds apart; with several, each style has a row.
     sizes: width and height of pictures [pixels]; small ones are enlarged by whole numbers.
     background: of pictures whose settings have a transparent one, so that pale lines are seen.
+
     Raises OptionError, also for several moments of several designs or sizes, PackError or
     BackendError.
     """
@@ -148,9 +161,11 @@ def garments_sheet(
 ) -> PictureSheet:
     """Each garment at GARMENT_TIMES, in its own view and wind.
 
-    settings: size, packs and backend; the rest is that of each garment. names: garments of the
-    package or files; all of the package unless given. background: as in `styles_sheet`.
-    Raises OptionError, PackError or BackendError.
+    settings: size, packs and backend; the rest is that of each garment.
+    names: garments of the package or files; all of the package unless given.
+    background: as in `styles_sheet`.
+
+    Raises OptionError, PackError or BackendError, as `drapery.draw` does.
     """
     garments = [find_garment(name) for name in names or garment_names()]
     same = {name: getattr(settings, name) for name in ("size", "packs", "format", "backend")}
@@ -177,9 +192,13 @@ def players_sheet(
 ) -> PictureSheet:
     """Players in motions, from several sides: a row for each skin and view.
 
-    settings: size, packs and backend. skins: names or PNG files; our own unless given.
+    settings: size, packs and backend.
+    skins: names or PNG files; our own unless given.
+    motions: a column for each.
     wear: garments by name or file.
-    background: as in `styles_sheet`. Raises OptionError, PackError or BackendError.
+    background: as in `styles_sheet`.
+
+    Raises OptionError, PackError or BackendError, as `drapery.draw` does.
     """
     same = {name: getattr(settings, name) for name in ("size", "packs", "format", "backend")}
     packs = open_packs(settings.packs, format=settings.format)

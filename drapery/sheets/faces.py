@@ -23,10 +23,17 @@ Side = Literal["front", "back"]
 def patterns_sheet(
     packs: Packs, base: str, dyes: Sequence[str], *, side: Side = "front", scale: int = 3
 ) -> PictureSheet:
-    """Every pattern of the packs, extra ones too, in every one of these dyes, on a base.
+    """Every pattern of the packs, extra ones too, in several dyes on a base.
 
-    A pattern whose file is broken is an empty cell labelled as broken. Raises OptionError for more
-    than 2000 faces.
+    A pattern whose file is broken is an empty cell labelled as broken.
+
+    packs: resource packs, see `drapery.packs.open_packs`.
+    base: the base dye.
+    dyes: of the patterns; each pattern has a face in each.
+    side: of the cloth.
+    scale: pixels of a texel.
+
+    Raises OptionError for more than 2000 faces.
     """
     patterns = packs.patterns()
     count = len(patterns) * len(dyes)
@@ -47,6 +54,10 @@ def patterns_sheet(
 def contents_sheet(packs: Packs, *, base: str = "white", dye: str = "black") -> PictureSheet:
     """Every pattern of a stack of packs, with the pack that it is from.
 
+    packs: resource packs, see `drapery.packs.open_packs`.
+    base: the base dye.
+    dye: of the patterns.
+
     Raises OptionError for more than 2000 patterns.
     """
     sheet = patterns_sheet(packs, base, (dye,))
@@ -60,7 +71,11 @@ def contents_sheet(packs: Packs, *, base: str = "white", dye: str = "black") -> 
 
 
 def steps_sheet(banner: Banner, packs: Packs) -> PictureSheet:
-    """The banner after each step at the loom, with the dye and the pattern to use."""
+    """The banner after each step at the loom, with the dye and the pattern to use.
+
+    banner: the design.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    """
     made = [(f"base, {banner.base}", Banner(banner.base))]
     made += [
         (f"{step.layer.pattern}, {step.layer.dye}", step.banner) for step in loom_steps(banner)

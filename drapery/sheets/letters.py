@@ -16,9 +16,13 @@ GAP = 2
 
 
 def faces_row(banners: Sequence[Banner], packs: Packs, *, scale: int = 8) -> Frame:
-    """The plain faces side by side, each 20 x 40 texels of `scale` pixels.
+    """The plain faces side by side, each 20 x 40 texels.
 
-    Raises PackError.
+    banners: from left to right.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    scale: pixels of a texel.
+
+    Raises PackError for a texture that cannot be used.
     """
     gap = np.zeros((40 * scale, GAP * scale, 4), np.uint8)
     parts: list[Pixels] = []
@@ -28,10 +32,14 @@ def faces_row(banners: Sequence[Banner], packs: Packs, *, scale: int = 8) -> Fra
 
 
 def cloth_row(banners: Sequence[Banner], settings: Settings) -> Frame:
-    """The banners as cloth side by side, each of the settings' size.
+    """The banners as cloth side by side.
 
     Each has a seed of its own, so that equal letters do not hang in equal folds.
-    Raises OptionError, PackError or BackendError.
+
+    banners: from left to right.
+    settings: the options of each picture.
+
+    Raises OptionError, PackError or BackendError, as `drapery.draw` does.
     """
     frames = []
     for number, banner in enumerate(banners):

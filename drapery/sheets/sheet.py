@@ -11,7 +11,11 @@ from drapery.render.contact import contact_table
 
 @dataclass(frozen=True, eq=False)
 class SheetCell:
-    """One picture and its label."""
+    """One picture and its label.
+
+    label: the text below it.
+    pixels: sRGB with straight alpha, shape [H, W, 4], uint8.
+    """
 
     label: str
     pixels: Pixels
@@ -21,8 +25,11 @@ class SheetCell:
 class PictureSheet:
     """Pictures in rows.
 
-    columns: pictures in a row. across, down: headings of columns and rows, which replace the
-    labels; give both or neither.
+    title: of the sheet.
+    cells: the pictures, row by row.
+    columns: pictures in a row.
+    across: headings of columns, which replace the labels; give both headings or neither.
+    down: headings of rows.
     """
 
     title: str

@@ -39,14 +39,17 @@ def draw_sprites(
     """The loop of a standing banner or a garment as it looks to each of some directions, by name.
 
     The motion is the same in all, and one camera shows them at one scale. Where a style draws large
-    pixels, a picture has one pixel for each: the sprites of 128 x 128 pixels in `pixel-art` have
-    64 x 64.
+    pixels, a picture has one pixel for each: the sprites of 128 x 128 pixels in `pixel-art` have 64
+    x 64.
 
-    banner, settings: see `draw`; the rotation is chosen here.
+    banner: what to draw, see `drapery.draw`.
+    settings: the options of the pictures; the rotation is chosen here.
     directions: 1, 2, 4, 8 or 16, south first, then clockwise as seen from above.
-    seconds, fps: length of each loop [s] and its frames/s.
+    seconds: length of each loop [s].
+    fps: [frames/s] of each loop.
     on_direction: called with the number of finished directions and of all.
-    Raises OptionError, PackError or BackendError.
+
+    Raises OptionError, PackError or BackendError, as `drapery.draw` does.
     """
     if directions not in (1, 2, 4, 8, 16):
         raise OptionError(f"directions {directions!r}: give 1, 2, 4, 8 or 16")

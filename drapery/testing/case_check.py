@@ -23,7 +23,9 @@ TEST = "case"
 class CaseResult:
     """The result of a case.
 
+    name: of the case.
     fault: one line, or None if the picture agrees with its golden.
+    written: whether the golden was written.
     broken: whether it could not be drawn, or its files not be read or written.
     """
 
@@ -36,10 +38,14 @@ class CaseResult:
 def check_cases(
     cases: CaseFile, folder: Path, report: Path, only: Collection[str] = ()
 ) -> Iterator[CaseResult]:
-    """Draw each case and compare it with its golden; pictures of failures go to `report`.
+    """Draw each case and compare it with its golden. A case that cannot be drawn has a fault.
 
-    folder: of the file. only: the names of the cases to check; all if empty. A case that cannot be
-    drawn has a fault. Raises OptionError for a name that no case has.
+    cases: the cases of a file.
+    folder: of the file.
+    report: the folder for pictures of failures.
+    only: the names of the cases to check; all if empty.
+
+    Raises OptionError for a name that no case has.
     """
     for case in chosen_cases(cases, only):
         try:
@@ -56,7 +62,11 @@ def check_cases(
 def update_cases(cases: CaseFile, folder: Path, only: Collection[str] = ()) -> Iterator[CaseResult]:
     """Draw each case and write it as the new golden where the present one does not agree.
 
-    only: see `check_cases`. Raises OptionError as there, and OutputError.
+    cases: the cases of a file.
+    folder: of the file.
+    only: the names of the cases to draw; all if empty.
+
+    Raises OptionError for a name that no case has, OutputError for a golden that cannot be written.
     """
     for case in chosen_cases(cases, only):
         try:
@@ -114,7 +124,11 @@ def _notes(case: Case, banner: Banner | None) -> list[LayerNote] | None:
 
 
 def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
-    """Goldens in the folder that no case names."""
+    """Goldens in the folder of a file's goldens that no case names.
+
+    cases: the cases of a file.
+    folder: of the file.
+    """
     used = {_golden_path(cases, case, folder) for case in cases.case}
     found = (path for kind in ("*.png", "*.sha256") for path in (folder / cases.goldens).glob(kind))
     return sorted(path for path in found if path not in used)

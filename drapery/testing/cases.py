@@ -60,7 +60,10 @@ class Case(BaseModel):
     defaulted: frozenset[str] = frozenset()
 
     def settings_for(self, banner: Banner | None) -> Settings:
-        """The settings of its picture of a banner. Raises OptionError for what does nothing."""
+        """The settings of its picture of a banner.
+
+        Raises OptionError for what does nothing.
+        """
         values = self.settings.given_values.items()
         own = {name: value for name, value in values if name in self.defaulted}
         is_still = self.seconds is None and self.fps is None
@@ -78,7 +81,10 @@ class CaseFile(BaseModel):
 
 
 def read_cases(path: Path) -> CaseFile:
-    """Read a file of cases. Raises OptionError, naming the file, the case and the key."""
+    """Read a file of cases.
+
+    Raises OptionError, naming the file, the case and the key.
+    """
     raw = _load(path)
     defaults = raw.get("defaults", {})
     cases = raw.get("case")

@@ -36,7 +36,11 @@ LayerNote = dict[str, str]
 
 
 def layer_notes(banner: Banner, packs: Packs) -> list[LayerNote]:
-    """The front face of every layer of a design, untinted, as a golden stores it."""
+    """The front face of every layer of a design, untinted, as a golden stores it.
+
+    banner: the design.
+    packs: resource packs, see `drapery.packs.open_packs`.
+    """
     names = ["the cloth", f"base, {banner.base}"]
     names += [f"{layer.pattern}, {layer.dye}" for layer in banner.layers]
     sheets = [texels for texels, _ in flag_layers(banner, packs)]
@@ -55,7 +59,13 @@ def explain_change(
 ) -> str:
     """One line: how much changed and, if layer notes are given, which layer and how.
 
-    expected, actual: what `as_picture` takes. Layers that others hide are named last, as hidden.
+    Layers that others hide are named last, as hidden.
+
+    expected: what `as_picture` takes.
+    actual: what `as_picture` takes.
+    before: the layers of the expected design, see `layer_notes`.
+    after: the layers of the actual design.
+    tolerance: what does not count.
     """
     old, new = as_picture(expected), as_picture(actual)
     sizes = old.described(), new.described()

@@ -81,7 +81,11 @@ class _ShownPicture:
 
 @dataclass(frozen=True)
 class GoldenUpdate:
-    """A golden as it would be if the picture were accepted: its path, and the file's content."""
+    """A golden as it would be if the picture were accepted.
+
+    path: of the golden.
+    content: the bytes of its file.
+    """
 
     path: Path
     content: bytes
@@ -101,10 +105,18 @@ def keep_failure(
 ) -> Path:
     """Write a failure's pictures and facts; returns the picture to look at first.
 
-    expected, actual: what `as_picture` takes; None if nothing is known of the expected one, and
-        both for what has no picture, of which the report shows the line.
-    update: what `accept_failures` writes. root: the folder in which `accept_failures` will run; by
-    default the present one. tolerance: what does not count. Raises OutputError.
+    folder: that of the failures.
+    test: the id of the test.
+    label: the name of the golden.
+    expected: what `as_picture` takes; None if nothing is known of it.
+    actual: what `as_picture` takes; None for what has no picture, of which the report shows the
+        line.
+    line: the fault in one line.
+    update: what `accept_failures` writes.
+    root: the folder in which `accept_failures` will run; by default the present one.
+    tolerance: what does not count.
+
+    Raises OutputError for a folder that cannot be written.
     """
     make_folder(folder)
     stem = failure_id(test, label)
@@ -147,8 +159,11 @@ def write_report(
 ) -> Path | None:
     """Make the page of all failures in a folder; without failures there is none.
 
-    page: where to write it, by default index.html in the folder. root: the folder in which the
-    failures will be accepted; by default the present one. Raises OutputError.
+    folder: that of the failures.
+    page: where to write it, by default index.html in the folder.
+    root: the folder in which the failures will be accepted; by default the present one.
+
+    Raises OutputError for a page that cannot be written.
     """
     failures = failures_in(folder)
     page = page or folder / _PAGE
@@ -160,7 +175,10 @@ def write_report(
 
 
 def markdown_report(folder: Path) -> str:
-    """A table of all failures in a folder, for the summary of a job. Raises OutputError."""
+    """A table of all failures in a folder, for the summary of a job.
+
+    Raises OutputError.
+    """
     failures = failures_in(folder)
     if not failures:
         return "All goldens are as before.\n"
@@ -178,9 +196,11 @@ def markdown_report(folder: Path) -> str:
 def accept_failures(folder: Path, only: Collection[str] | None = None) -> Iterator[Path]:
     """Write the actual pictures of a report as goldens; yields the path of each.
 
-    only: the ids of those to accept; None for all. Raises OutputError, before anything is written,
-    if a golden would lie outside the present folder, as in a report that somebody else made, or
-    is not the one that was checked.
+    folder: that of the report.
+    only: the ids of those to accept; None for all.
+
+    Raises OutputError, before anything is written, if a golden would lie outside the present
+    folder, as in a report that somebody else made, or is not the one that was checked.
     """
     if not folder.is_dir():
         raise OutputError(f"{folder} is not a folder; use the report of drapery golden check")
@@ -244,7 +264,10 @@ def read_approvals(path: Path) -> list[str]:
 
 
 def clear_report(folder: Path, page: Path | None = None) -> None:
-    """Remove the failures of earlier runs; other files stay. page: see `write_report`.
+    """Remove the failures of earlier runs; other files stay.
+
+    folder: that of the failures.
+    page: see `write_report`.
 
     Raises OutputError if one cannot be removed, as in a folder of another user.
     """

@@ -22,11 +22,16 @@ STRETCH = 0.25
 
 
 def check_garment(garment: Garment, seconds: float = SECONDS) -> None:
-    """Move a garment for some seconds. Raises OptionError with the first fault found:
+    """Move a garment for some seconds. These are faults:
 
     - two motions of the same garment differ, or are not finite;
     - a spring becomes longer than at rest by over a quarter;
     - its cloth begins in its wearer, a pole or a block, or enters one, by over 1 mm.
+
+    garment: the garment to check.
+    seconds: of motion [s].
+
+    Raises OptionError with the first fault found.
     """
     packs, settings = open_packs(()), garment.settings()
     times = [frame / FPS for frame in range(round(seconds * FPS) + 1)]

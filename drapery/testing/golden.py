@@ -37,7 +37,8 @@ class GoldenError(DraperyError):
 def encode(source: Any, layers: list[dict[str, str]] | None = None) -> bytes:
     """The bytes of a golden file: a PNG, or an APNG for a loop.
 
-    source: what `as_picture` takes. layers: of the design, as a note in the file.
+    source: what `as_picture` takes.
+    layers: of the design, as a note in the file.
     """
     picture = as_picture(source)
     text = None if layers is None else json.dumps(layers)
@@ -58,7 +59,10 @@ def encode(source: Any, layers: list[dict[str, str]] | None = None) -> bytes:
 
 
 def decode(data: bytes) -> tuple[Picture, list[dict[str, str]] | None]:
-    """The picture and the layers in a golden file. Raises GoldenError."""
+    """The picture and the layers in a golden file.
+
+    Raises GoldenError.
+    """
     try:
         picture = decode_picture(data, "the golden", ("PNG",))
     except DraperyError as error:
@@ -141,5 +145,10 @@ def fingerprint(source: Any) -> bytes:
 
 
 def agrees(expected: Any, actual: Any, tolerance: Tolerance) -> bool:
-    """Whether a picture is within the tolerance of its golden; both are what `as_picture` takes."""
+    """Whether a picture is within the tolerance of its golden.
+
+    expected: what `as_picture` takes.
+    actual: what `as_picture` takes.
+    tolerance: what counts as a difference.
+    """
     return measure_pictures(as_picture(expected), as_picture(actual), tolerance).agrees

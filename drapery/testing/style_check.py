@@ -24,13 +24,15 @@ WELD = 1e-6
 
 
 def check_style(style: Style) -> None:
-    """Check a style on a banner that waves. Raises OptionError with the first fault found:
+    """Check a style on a banner that waves. These are faults:
 
     - two drawings of the same banner differ;
     - the size of the picture is not the chosen one;
     - the last frame of a loop leads to the first by a larger step than between other frames;
     - a mesh has a hole: an edge with an odd number of triangles; or it has numbers that are not
       finite, or normals that are not unit vectors.
+
+    Raises OptionError with the first fault found.
     """
     banner = parse_banner(DESIGN)
     settings = Settings(size=SIZE, grid=(5, 9), style=(style,))

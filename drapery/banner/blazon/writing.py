@@ -34,6 +34,7 @@ def write_blazon(banner: Banner) -> str:
 def alt_text(banner: Banner, *, plain: bool = False) -> str:
     """A banner in words, for people who cannot see its picture: `Banner: Azure, a bend Or`.
 
+    banner: the design.
     plain: in everyday English, `A red banner with a white cross`; `Banner.parse` does not read it.
     """
     if plain:

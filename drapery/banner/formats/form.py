@@ -11,11 +11,13 @@ from drapery.banner.formats.found import FoundBanner
 class Form:
     """A form of text.
 
-    name: what `--from` and `--as` take. title: a short description. example: a text of the form.
+    name: what `--from` and `--as` take.
+    title: a short description.
+    example: a text of the form.
     recognises: whether a text is probably of this form; it is fast and never raises.
     read: all banners of a text, at least one; raises DesignError.
-    write: the text of a banner; raises DesignError if the form cannot hold it. None if the form
-        can only be read.
+    write: the text of a banner; raises DesignError if the form cannot hold it. None if the form can
+        only be read.
     source: where the form is defined: the address of a page or of a project.
     """
 
@@ -32,9 +34,13 @@ class Form:
 class BinaryForm:
     """A form of bytes, such as a region file.
 
-    suffixes: endings of its files' names, such as `.mca`. recognises: whether the first bytes and
-    the name of a file are of this form. read: all banners in the file, which may be none; raises
-    DesignError for a broken file. source: where the form is defined.
+    name: what `--from` takes.
+    title: a short description.
+    suffixes: endings of its files' names, such as `.mca`.
+    recognises: whether the first bytes and the name of a file are of this form.
+    read: all banners in the file, which may be none; raises DesignError for a broken file.
+    write: the file of a banner; None if the form can only be read.
+    source: where the form is defined.
     """
 
     name: str

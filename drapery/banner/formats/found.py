@@ -56,17 +56,20 @@ def find_banners(
     on_error: Callable[[DesignError], None] | None = None,
     details: bool = False,
 ) -> Iterator[FoundBanner]:
-    """Every banner and patterned shield in the tree, in the order of the text.
+    """Every banner and patterned shield in a tree, in the order of the text.
 
-    Every mapping and list is searched: containers, shulker boxes, bundles, equipment, frames.
-    Plain shields have no design and are skipped. The search does not recurse, so its depth is not
+    Every mapping and list is searched: containers, shulker boxes, bundles, equipment, frames. Plain
+    shields have no design and are skipped. The search does not recurse, so its depth is not
     limited.
 
+    tree: mappings, lists, numbers and texts, as of NBT.
     where: the start of every path, such as a block's position.
     block_of: gives the block of a block entity, whose id names the base dye since 1.13.
-    on_error: called with the error of one broken banner, after which the search continues;
-        without it, the error is raised.
+    on_error: called with the error of one broken banner, after which the search continues; without
+        it, the error is raised.
     details: keep what an item says beside its design, such as its name; this takes memory.
+
+    Raises DesignError for a broken banner, unless `on_error` is given.
     """
     open_nodes: list[Iterator[tuple[Path, DataTree]]] = [iter([((None, where), tree)])]
     while open_nodes:

@@ -16,7 +16,14 @@ GIVE_FORMS = (give.NAME, give_legacy.NAME, give_old.NAME)
 
 
 def write_give(banner: Banner, form: str, details: ItemDetails) -> str:
-    """The command in one of GIVE_FORMS. Raises DesignError for another form, and as its writer."""
+    """The command that gives an item.
+
+    banner: its design.
+    form: one of GIVE_FORMS.
+    details: what the command says beside the design.
+
+    Raises DesignError for another form, and as its writer.
+    """
     count = f" {details.count}" if details.count > 1 else ""
     if form == give.NAME:
         argument = give.argument(banner, _components(details))
@@ -32,7 +39,11 @@ def write_give(banner: Banner, form: str, details: ItemDetails) -> str:
 
 
 def not_kept(details: ItemDetails, form: str) -> str:
-    """One line that names what a form does not keep of an item's details; "" if it keeps all."""
+    """One line that names what a form does not keep of an item's details; "" if it keeps all.
+
+    details: those of the item.
+    form: one of GIVE_FORMS.
+    """
     lost = [*details.left_out]
     if form not in GIVE_FORMS:
         lost += ["the name"] if details.name else []

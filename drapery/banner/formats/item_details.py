@@ -27,14 +27,19 @@ _DESIGN = ("banner_patterns", "base_color")
 
 @dataclass(frozen=True)
 class ItemDetails:
-    """What a command says beside the design. Raises DesignError.
+    """What a command says beside the design.
 
-    target: a selector such as `@a[distance=..5]`, or the name of a player. count: how many items.
+    target: a selector such as `@a[distance=..5]`, or the name of a player.
+    count: how many items.
     name: the item's custom name, a text or a component such as `{"text": "Flag", "color": "red"}`.
-    lore: the lines below it. json_text: write name and lore as JSON, as Java Edition 1.20.5 to
-    1.21.4 reads them; it applies only to the form `give`. components: the item's others (since
-    1.20.5), by name; the value of one that is removed is None. tag: other entries of its tag
-    (before). left_out: what the text said that is not here, in words.
+    lore: the lines below the name.
+    json_text: write name and lore as JSON, as Java Edition 1.20.5 to 1.21.4 reads them; it applies
+        only to the form `give`.
+    components: the item's others (since 1.20.5), by name; the value of one that is removed is None.
+    tag: other entries of the item's tag (up to 1.20.4).
+    left_out: what the text said that is not here, in words.
+
+    Raises DesignError for a value that a command cannot hold.
     """
 
     target: str = "@p"

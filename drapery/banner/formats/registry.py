@@ -138,7 +138,10 @@ FORMS: dict[str, Form] = {form.name: form for form in _TABLE}
 
 
 def recognise(text: str) -> Form:
-    """The first form that recognises a text. Raises DesignError if none does."""
+    """The first form that recognises a text.
+
+    Raises DesignError if none does.
+    """
     for form in _TABLE:
         if form.recognises(text):
             return form
@@ -254,8 +257,9 @@ def _recognised(text: str) -> list[FoundBanner]:
 def parse_banner(text: str, *, form: str | None = None, number: int | None = None) -> Banner:
     """The banner of a text in any form.
 
-    form: one of FORMS, or None to recognise it. number: which banner, from 1, if the text holds
-        several.
+    text: one design, or several of which `number` chooses.
+    form: one of FORMS, or None to recognise it.
+    number: which banner, from 1, if the text holds several.
 
     Raises DesignError with the place and the remedy.
     """
@@ -263,7 +267,13 @@ def parse_banner(text: str, *, form: str | None = None, number: int | None = Non
 
 
 def write_banner(banner: Banner, form: str = "json") -> str:
-    """The banner in one of FORMS. Raises DesignError if that form cannot hold it."""
+    """The text of a banner in a form.
+
+    banner: the design.
+    form: one of FORMS.
+
+    Raises DesignError if that form cannot hold it.
+    """
     write = _named(form).write
     if write is None:
         raise DesignError(f"the form {form!r} can be read but not written")
@@ -273,8 +283,10 @@ def write_banner(banner: Banner, form: str = "json") -> str:
 def choose_banner(found: list[FoundBanner], number: int | None = None) -> Banner:
     """One of the banners that were found; several equal ones count as one.
 
-    number: which, from 1. Raises DesignError if it is out of range, and for None if the banners
-    differ.
+    found: what was found in a text.
+    number: which, from 1; None if all are equal.
+
+    Raises DesignError for a number out of range, and for None if the banners differ.
     """
     if number is None and len({f.banner for f in found}) == 1:
         return found[0].banner
@@ -326,7 +338,9 @@ def binary_forms() -> dict[str, BinaryForm]:
 def write_blocks(banners: Sequence[Banner], suffix: str) -> bytes | None:
     """A file of blocks with the banners standing in a row to the east, to read from the south.
 
+    banners: the designs, from west to east.
     suffix: .schem, .litematic, .nbt or .mcstructure; None comes back for another one.
+
     Raises DesignError for shields, which are not blocks, and for too many banners.
     """
     from drapery.banner.formats.binary import BLOCK_WRITERS

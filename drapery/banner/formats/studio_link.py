@@ -70,7 +70,13 @@ KEYS = ("base", "layers", "kind")
 
 
 def hidden_layers(tree: dict[str, object], count: int) -> frozenset[int]:
-    """The places of hidden layers among `count`, from 0. Raises DesignError."""
+    """The places of hidden layers in the tree of a link, from 0.
+
+    tree: that of a studio's link.
+    count: number of the design's layers.
+
+    Raises DesignError for places that are not among them.
+    """
     hidden = tree.get("hidden", [])
     if not isinstance(hidden, list) or not all(
         type(place) is int and 0 <= place < count for place in hidden
@@ -86,7 +92,10 @@ def pack_link(tree: object) -> str:
 
 
 def unpack_link(text: str) -> object:
-    """The JSON of a link. Raises DesignError for any other text."""
+    """The JSON of a link.
+
+    Raises DesignError for any other text.
+    """
     word = text.strip()
     if len(word) > MAX_LINK:
         raise DesignError(f"the link has {len(word)} characters, over {MAX_LINK}; {_REMEDY}")

@@ -20,23 +20,31 @@ MAX_CHECKED_BYTES = 512 << 20
 class PackReport:
     """One pack of a stack.
 
-    format: the resource format that it is read as, or None. overlays: the folders in use.
-    formats: the lowest and the highest format that it claims to support, or None.
-    has, lacks: of the 43 patterns. added: other patterns that it defines. extra: sheets in the
-        game's own namespace that are no pattern, so that no design can name them.
+    label: the pack's name in messages.
+    description: what its `pack.mcmeta` says.
+    format: the resource format that it is read as, or None.
+    overlays: the folders in use.
+    has: those of the 43 patterns that it has.
+    lacks: those of the 43 patterns that it does not have.
+    added: other patterns that it defines.
     shields: those of the 43 patterns that it has for shields.
     bases: which of banner_base, shield_base and shield_base_nopattern it has.
     overrides: pairs of a pattern and the pack below whose sheet it overrides.
     sides: pairs of a sheet's side [px] and how many have it, small ones first.
-    normal_maps, specular_maps: patterns with LabPBR maps. animated: patterns with frames. A sheet
-        for shields is called `creeper (shield)`.
+    normal_maps: patterns with a LabPBR normal map. A sheet for shields is called `creeper
+        (shield)`.
+    specular_maps: patterns with a LabPBR specular map, named as `normal_maps`.
+    animated: patterns with frames, named as `normal_maps`.
     problems: the errors of files that cannot be drawn: sheets, bases, and all other textures.
-    notes: what was read otherwise than it lies in the files, or not at all, and what the author
-        may not have meant.
-    unchecked: patterns beyond MAX_CHECKED_BYTES; their sheets and maps are not decoded, and are
-        not among the sides, maps, animations and problems.
+    unchecked: patterns beyond MAX_CHECKED_BYTES; their sheets and maps are not decoded, and are not
+        among the sides, maps, animations and problems.
+    formats: the lowest and the highest format that it claims to support, or None.
+    extra: sheets in the game's own namespace that are no pattern, so that no design can name them.
+    notes: what was read otherwise than it lies in the files, or not at all, and what the author may
+        not have meant.
     lacks_for_shields: patterns, of the 43 and of those that it adds, that have no sheet for
-        shields; empty if none has one. shield_sides: as `sides`, of the sheets for shields.
+        shields; empty if none has one.
+    shield_sides: as `sides`, of the sheets for shields.
     """
 
     label: str
@@ -65,10 +73,14 @@ class PackReport:
 def describe_packs(
     packs: PackLike | Sequence[PackLike], *, format: int | None = None
 ) -> tuple[PackReport, ...]:
-    """A report on each pack of a stack, lowest first; takes what `open_packs` takes.
+    """A report on each pack of a stack, lowest first.
 
-    A broken file in a pack becomes one of its problems. Raises PackError for a pack that cannot
-    be opened.
+    A broken file in a pack becomes one of its problems.
+
+    packs: what `open_packs` takes.
+    format: pack format of the game's version, see `open_packs`.
+
+    Raises PackError for a pack that cannot be opened.
     """
     opened = open_packs(packs, format=format)
     ours, *chosen = opened.packs

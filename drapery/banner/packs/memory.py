@@ -64,7 +64,13 @@ class MemoryPack:
         return self._label
 
     def read(self, name: str, limit: int) -> bytes | None:
-        """See `PackSource`."""
+        """The bytes of a file, or None if the pack has none of this name.
+
+        name: the path in the pack.
+        limit: the largest size that is read [bytes].
+
+        Raises PackError for a file over the limit.
+        """
         data = self._contents.get(name)
         return None if data is None else within(data, limit, f"{self._label}: {name}")
 

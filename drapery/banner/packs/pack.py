@@ -16,6 +16,8 @@ from drapery.banner.patterns import PATTERN_NAMES
 class Pack:
     """One opened pack.
 
+    source: the files of the pack.
+    meta: what its `pack.mcmeta` says.
     roots: the folders of its files: topmost overlay first, the pack itself last.
     format: the resource format that it is read as, None if it is unknown.
     """
@@ -31,7 +33,13 @@ class Pack:
         return self.source.label
 
     def read(self, name: str, limit: int) -> bytes | None:
-        """The topmost file of that name, or None. Raises PackError."""
+        """The topmost file of a name, or None.
+
+        name: the path in the pack.
+        limit: the largest size that is read [bytes].
+
+        Raises PackError for a file that is larger or cannot be read.
+        """
         for root in self.roots:
             data = self.source.read(root + name, limit)
             if data is not None:

@@ -15,9 +15,12 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def png_size(data: bytes, name: str) -> tuple[int, int]:
-    """Width and height [px] from the header; nothing is decoded.
+    """Width and height from the header [px]; nothing is decoded.
 
-    name: the file's name in errors. Raises PackError.
+    data: the bytes of a PNG file.
+    name: the file's name in errors.
+
+    Raises PackError for other bytes.
     """
     if data[:8] != _SIGNATURE or data[12:16] != b"IHDR" or len(data) < 33:
         raise PackError(f"{name} is not a PNG file: save it as one")
@@ -40,7 +43,11 @@ def read_png(data: bytes, name: str) -> Texels:
 
     Only the upper eight of 16 bits a channel are used, as in the game. Chunks that say nothing
     about the texels are not read, whatever is wrong with them.
-    name: the file's name in errors. Raises PackError.
+
+    data: the bytes of the file.
+    name: the file's name in errors.
+
+    Raises PackError for a file that is broken, too large or no PNG.
     """
     png_size(data, name)
     # Only this plug-in: PIL.Image.open would load those of all common formats first.

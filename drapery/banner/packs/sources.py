@@ -25,7 +25,10 @@ class PackSource(Protocol):
     def read(self, name: str, limit: int) -> bytes | None:
         """The bytes of a file, or None if it does not exist.
 
-        Raises PackError if it cannot be read or is over the limit [bytes].
+        name: the path in the pack.
+        limit: the largest size that is read [bytes].
+
+        Raises PackError if it cannot be read or is over the limit.
         """
 
     def files(self, folder: str) -> tuple[str, ...]:

@@ -11,10 +11,13 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class PackFormat:
-    """One format. number, minor: the highest that the versions have.
+    """One format.
 
-    game: the versions of the game. date: when the first of them came out, as YYYY-MM-DD.
+    number: its major number.
+    game: the versions of the game.
+    date: when the first of them came out, as YYYY-MM-DD.
     changed: what it changed for banners, shields, players and their packs.
+    minor: the highest minor number of these versions.
     """
 
     number: int
