@@ -16,7 +16,7 @@ from drapery.errors import DraperyError
 UNITS = {
     **dict.fromkeys(("seconds", "time", "times", "dt", "step", "period", "timeout"), "[s]"),
     **dict.fromkeys(("fps",), "[frames/s]"),
-    **dict.fromkeys(("thickness", "radius", "depth", "length"), "[m]"),
+    **dict.fromkeys(("thickness", "radius", "depth", "length"), "["),  # of metres, or of texels
 }
 """What the line of a number of this name says."""
 ARRAYS = re.compile(
@@ -37,14 +37,20 @@ class Described:
         self.text = found.docstring.value if found.docstring else ""
 
     @property
-    def parameters(self) -> list[griffe.Parameter]:
-        """Those of its own that nothing else describes, as the help of an option does."""
+    def parameters(self) -> list[griffe.Parameter | griffe.Attribute]:
+        """Those of its own that nothing else describes, as the help of an option does.
+
+        A class that takes none by position, as a protocol or a model, has its attributes.
+        """
+        taken = list(self.found.parameters) or [
+            each for each in self.found.members.values() if isinstance(each, griffe.Attribute)
+        ]
         return [
             each
-            for each in self.found.parameters
-            if each.name not in ("self", "cls")
+            for each in taken
+            if each.name not in ("self", "cls", "model_config")
             and not each.name.startswith("_")
-            and not str(each.default).startswith("_option(")
+            and not str(_value(each)).startswith("_option(")
             and not _has_docstring(self.found, each.name)
         ]
 
@@ -73,18 +79,18 @@ class Described:
         if any(". Raises " in item for item in self._items):
             yield "`Raises` at the start of a line"
 
-    def _parameter_faults(self, parameter: griffe.Parameter) -> Iterator[str]:
+    def _parameter_faults(self, parameter: griffe.Parameter | griffe.Attribute) -> Iterator[str]:
         line = self.lines.get(parameter.name)
         kind = str(parameter.annotation)
         if line is None:
             yield f"a line `{parameter.name}: ...`"
             return
-        others = "|".join(each.name for each in self.found.parameters)
+        others = "|".join(each.name for each in self.parameters)
         if re.search(rf"[.;] (?:{others}): ", line):
             yield f"one parameter in the line of {parameter.name}"
         unit = UNITS.get(parameter.name, "") if "float" in kind else ""
         if unit not in line and "see `" not in line:
-            yield f"{unit} in the line of {parameter.name}"
+            yield f"the unit in the line of {parameter.name}"
         if ARRAYS.match(kind) and not SHAPE.search(line):
             yield f"the shape in the line of {parameter.name}"
 
@@ -163,6 +169,10 @@ def _source(found: griffe.Object) -> Path:
     home = ROOT / "render" if first == "render" else ROOT / "drapery" / first
     path = home.joinpath(*rest)
     return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+
+
+def _value(of: griffe.Parameter | griffe.Attribute) -> object:
+    return of.default if isinstance(of, griffe.Parameter) else of.value
 
 
 def _has_docstring(found: griffe.Object, name: str) -> bool:

@@ -15,8 +15,10 @@ from drapery.errors import OptionError, counted
 class Seam(NamedTuple):
     """Pairs of particles of two cloths; `sew` merges each pair into one particle.
 
-    first, second: indices of the two cloths in the list given to `sew`. first_particles,
-    second_particles: particles of each, [K]; the k-th of one is merged with the k-th of the other.
+    first: index of the one cloth in the list given to `sew`.
+    first_particles: its particles, shape [K].
+    second: index of the other cloth.
+    second_particles: its particles, shape [K]; the k-th is merged with the k-th of the first.
     """
 
     first: int

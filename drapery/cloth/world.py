@@ -67,8 +67,11 @@ class Detail:
 class WorldView(NamedTuple):
     """The shapes of all cloths of one topology.
 
-    cloth: their topology. ids: [B]. places: of the cloths [m], [B, 3]. positions: of the particles
-    relative to the place of their cloth [m], [B, N, 3]. levels: FULL, HALF or STIFF, [B].
+    cloth: their topology.
+    ids: of the cloths, shape [B].
+    places: of the cloths [m], shape [B, 3].
+    positions: of the particles relative to the place of their cloth [m], shape [B, N, 3].
+    levels: FULL, HALF or STIFF, shape [B].
     """
 
     cloth: Cloth

@@ -185,7 +185,8 @@ class ClothTexture(GarmentTable):
 
     block: the name of a block's texture, tiled.
     dye: multiplies it; None leaves it as it is.
-    stripes, bands: dyes that follow `dye` in turn, from left to right or downwards.
+    stripes: dyes that follow `dye` in turn, from left to right.
+    bands: dyes that follow `dye` in turn, downwards.
     width: of each stripe or band [texels].
     trim: the dye of the lowest texels.
     trim_width: how high they are [texels].
@@ -194,8 +195,8 @@ class ClothTexture(GarmentTable):
     pack: the name of a texture of the packs, such as `entity/player/cape`.
     box: where a model's box lies on the texture, unfolded: left, top, width, height, depth
         [texels].
-    front, back: the part on each side: left, top, width, height [texels]; the whole unless given,
-        and the front on both sides.
+    front: the part on the front: left, top, width, height [texels]; the whole unless given.
+    back: the part on the back, as `front`; the same as the front unless given.
     sheet: width and height of the texture in these units [texels].
     """
 
@@ -253,6 +254,7 @@ class GarmentPiece(GarmentTable):
 class GridPiece(GarmentPiece):
     """A rectangle or trapezoid that hangs down from the middle of its upper edge.
 
+    shape: "grid".
     size: width and height [texels].
     points: particles across and down.
     hem: the width of its lower edge [texels], if another.
@@ -283,6 +285,7 @@ class GridPiece(GarmentPiece):
 class StripPiece(GarmentPiece):
     """A rope or ribbon from one place to another.
 
+    shape: "strip".
     ends: where it starts and ends [texels].
     length: at least their distance [texels]; longer ones sag.
     width: across [texels].
@@ -325,6 +328,7 @@ class StripPiece(GarmentPiece):
 class RingPiece(GarmentPiece):
     """A tube about the y axis, such as a skirt, coat or tent.
 
+    shape: "ring".
     profile: of rings from the top down: height, half width, half depth [texels].
     points: particles around and down.
     square: 2 is an ellipse, higher numbers are squarer.
@@ -358,6 +362,7 @@ class RingPiece(GarmentPiece):
 class DiscPiece(GarmentPiece):
     """A round cloth that lies level and faces up.
 
+    shape: "disc".
     radius: [texels].
     rings: of particles.
 
@@ -382,6 +387,7 @@ class DiscPiece(GarmentPiece):
 class PolygonPiece(GarmentPiece):
     """A flat piece of any outline.
 
+    shape: "polygon".
     corners: x and y of each, counter-clockwise seen from the front [texels].
     spacing: between particles [texels].
 
@@ -467,7 +473,8 @@ class GarmentSeam(GarmentTable):
 class GarmentPole(GarmentTable):
     """A square pole of wood.
 
-    start, end: the middles of its ends [texels].
+    start: the middle of its one end [texels].
+    end: the middle of its other end [texels].
     half: half its width [texels].
     """
 
@@ -595,7 +602,9 @@ class Garment(GarmentTable):
     piece: at most 64 pieces of cloth.
     pin: where they are held.
     seam: which of their edges are sewn together.
-    pole, block, mesh: stiff bodies, which are drawn and stop cloth.
+    pole: poles of wood; they and the other stiff bodies are drawn and stop cloth.
+    block: blocks of the game.
+    mesh: meshes of files.
     over: garments that its wearer wears over it; only their cloth counts.
 
     A program that makes one of wrong values gets pydantic's ValidationError, `load` an OptionError.

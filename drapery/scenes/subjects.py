@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 class StagedSubject(Protocol):
     """What is drawn with its settings, and how its cloth moves.
 
-    step: the longest time step of its cloth [s]. tolerance: see `Schedule.still`.
+    step: the longest time step of its cloth [s].
+    tolerance: see `Schedule.still`.
     """
 
     @property

@@ -43,8 +43,13 @@ OWN = ("name", "design", "hashed", *LIMIT_OPTIONS, *LOOP_OPTIONS)
 class Case(BaseModel):
     """One picture: its design and options, and how much it may differ from its golden.
 
+    name: its name, and that of its golden.
+    design: a text in any form; None for what needs no design.
     tolerance: all limits together; a hashed case has none.
-    seconds, fps: length [s] and frames/s of a loop; with None for both, the picture is a still.
+    hashed: whether the golden is a hash in place of a picture.
+    seconds: length of a loop [s]; with None for this and `fps`, the picture is a still.
+    fps: [frames/s] of a loop.
+    settings: the options of the picture.
     defaulted: the names of options that the defaults of its file give.
     """
 
@@ -71,7 +76,12 @@ class Case(BaseModel):
 
 
 class CaseFile(BaseModel):
-    """A file of cases. goldens: their folder, relative to that of the file, in which it lies."""
+    """A file of cases.
+
+    goldens: their folder, relative to that of the file, in which it lies.
+    defaults: options of all cases that do not give them.
+    case: the cases.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 

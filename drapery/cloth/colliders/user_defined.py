@@ -29,10 +29,10 @@ class SignedDistance(Protocol):
     """What an object needs to be the shape of a `Collider`. No base class is needed.
 
     signed_distance: a function of (point, parameters), as a static method or an attribute, that
-        numba can compile: it uses only numbers, `math` and `numpy`. point: a tuple x, y, z [m] in
-        the shape's frame. parameters: the array below. It returns the distance to the surface [m],
-        negative inside. A value below the true distance is correct but slower; a value above it
-        lets points pass through the shape. `check_collider` tests this.
+        numba can compile: it uses only numbers, `math` and `numpy`. The point is a tuple x, y, z
+        [m] in the shape's frame, the parameters are the array below. It returns the distance to
+        the surface [m], negative inside. A value below the true distance is correct but slower; a
+        value above it lets points pass through the shape. `check_collider` tests this.
     parameters: numbers that the function reads, shape [K]; K may be 0.
     bounds: low and high corner [m], shape [2, 3], of a box in the shape's frame that contains the
         whole surface; infinite where the shape is unbounded.
