@@ -7,10 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from pack_maker import BANNER, CREEPER, OLD_BASE, folder_pack, mcmeta, noise, plain, png
+from PIL import Image
 
 from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import open_packs
+from drapery.banner.packs.masks import looks_like_mask
 from drapery.banner.packs.resampling import MAX_COMPOSITE, common_side, resize
+from drapery.banner.packs.stack import Kind
 from drapery.banner.packs.texture_cache import MAX_CACHED_TEXELS
 from drapery.banner.packs.textures import from_mask
 from drapery.banner.patterns import PATTERN_NAMES
@@ -109,3 +112,27 @@ def test_beyond_the_bound_texels_are_the_nearest_ones_at_texel_centres() -> None
     made = from_mask(small, base)
     assert (made[..., :3] == resize(base, len(made))[..., :3]).all()
     assert (made[..., 3] == resize(small, len(made))[..., 0]).all()
+
+
+def test_stacks_of_our_own_art_share_textures_and_each_tells_what_is_missing() -> None:
+    first, second = open_packs(()), open_packs(())
+    assert first.sheet("creeper") is second.sheet("creeper")
+    for stack in (first, second):
+        stack.sheet("mymod:heart")
+        assert "mymod:heart" in " ".join(stack.warnings())
+    assert open_packs(()).warnings() == ()
+
+
+def test_a_pack_that_changes_is_read_anew_by_the_next_stack(tmp_path: Path) -> None:
+    path = tmp_path / "assets/minecraft/textures/entity/banner/creeper.png"
+    path.parent.mkdir(parents=True)
+    for level in (0, 255):
+        Image.new("RGBA", (64, 64), (level,) * 4).save(path)
+        assert (open_packs([tmp_path]).sheet("creeper") == level).all()
+
+
+def test_no_sheet_of_our_own_art_is_a_mask() -> None:
+    packs = open_packs(())
+    kinds: tuple[Kind, ...] = ("banner", "shield")
+    sheets = [packs.sheet(name, kind) for name in PATTERN_NAMES for kind in kinds]
+    assert not any(map(looks_like_mask, sheets))

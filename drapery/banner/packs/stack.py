@@ -4,7 +4,7 @@ A pack is a folder, a zip, a client jar or a pack in memory. A later pack overri
 earlier ones. The overlays of a pack, named in its `pack.mcmeta`, override its other files.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
@@ -29,10 +29,10 @@ from drapery.banner.packs.texture_cache import TextureCache
 from drapery.banner.packs.texture_ids import full_id, is_id, split_id, texture_file
 from drapery.banner.packs.textures import (
     MAX_SHEET,
+    MISSING,
     FrameLayout,
     Texture,
     check_sheet,
-    checker,
     cut_frames,
     frame_layout,
     still_layout,
@@ -112,7 +112,7 @@ class Packs:
 
         Raises PackError for a file that cannot be used.
         """
-        return self._textures.get(base, lambda: self._read_base(base)).at(time)
+        return self._kept(base, base, lambda: self._read_base(base)).at(time)
 
     def base_sheet(self, time: float = 0.0) -> Texels:
         """Pole, bar and undyed cloth of a banner, shape [H, H, 4].
@@ -130,7 +130,7 @@ class Packs:
         Raises PackError for a file that cannot be used.
         """
         full = full_id(name)
-        return self._textures.get(full, lambda: self._any_texture(full)).at(time)
+        return self._kept(full, full, lambda: self._any_texture(full)).at(time)
 
     def has_texture(self, name: str) -> bool:
         """Whether a pack or our own art has a texture of this id.
@@ -198,7 +198,7 @@ class Packs:
         Raises PackError for a file that cannot be used.
         """
         key = ("file", file.level, file.name)
-        return self._textures.get(key, lambda: self.read(file)).at(time)
+        return self._kept(key, file.name, lambda: self.read(file)).at(time)
 
     def read(self, file: PackFile) -> Texture:
         """The texture of a file that `find` gave, which is not kept.
@@ -300,16 +300,17 @@ class Packs:
 
     def notes(self) -> tuple[str, ...]:
         """What was read otherwise than it lies in the packs, or not at all, one line each."""
-        own = (line for pack in self.packs for line in pack.notes())
-        return (*dict.fromkeys((*own, *self._notes, *self._gathered_notes())),)
+        given = (line for pack in self.packs[1:] for line in pack.notes())
+        return (*dict.fromkeys((*given, *self._notes, *self._gathered_notes())),)
 
     def warnings(self) -> tuple[str, ...]:
         """Warnings about the textures read so far, one line each; they name the packs."""
         lines = list(self.notes())
-        labels = listed(pack.label for pack in self.packs[1:])
+        given = self.packs[1:]
+        labels = listed(pack.label for pack in given) if given else "our own art"
         if self._missing:
-            names, where = ", ".join(self._missing), labels or "our own art"
-            lines.append(f"missing from {where}, drawn as the game's checker: {names}")
+            names = ", ".join(self._missing)
+            lines.append(f"missing from {labels}, drawn as the game's checker: {names}")
         if self._ours and self._used and not self._all_in_memory():
             lines.append(f"not in {labels}, taken from our own art: {', '.join(self._ours)}")
         if self._black:
@@ -318,7 +319,7 @@ class Packs:
                 f"drawn with opaque black, as the game draws it: {names} of {labels}"
                 " (masks from before 1.15? use format 4 to read them as masks)"
             )
-        if (self._ours or self._missing) and labels and not self._used:
+        if (self._ours or self._missing) and given and not self._used:
             lines.append(f"no texture comes from {labels}: the textures needed are not in it")
         return tuple(lines)
 
@@ -335,7 +336,18 @@ class Packs:
         return all(isinstance(pack.source, MemoryPack) for pack in self.packs[1:])
 
     def _sheet(self, pattern: str, kind: Kind) -> Texture:
-        return self._textures.get((kind, pattern), lambda: self._read_sheet(pattern, kind))
+        name = sheet_name(pattern, kind)
+        return self._kept((kind, pattern), name, lambda: self._read_sheet(pattern, kind))
+
+    def _kept(self, key: Hashable, name: str, read: Callable[[], Texture]) -> Texture:
+        """The texture of a key in a cache; notes the name of a missing one for the warnings."""
+        # Without packs over it, our own art says the same in every stack, and its files do not
+        # change while a process runs.
+        own = isinstance(self.packs[-1].source, OwnArt)
+        texture = (_OWN_TEXTURES if own else self._textures).get(key, read)
+        if texture is MISSING:
+            self._missing[name] = None
+        return texture
 
     def _read_sheet(self, pattern: str, kind: Kind) -> Texture:
         found = self._find_sheet(pattern, kind)
@@ -343,8 +355,9 @@ class Packs:
         sheet = self._read(found, name, is_sheet=True)
         if found is None:
             return sheet
-        # Our own art has no masks, whatever the format of the game.
-        if found.level == 0 or not self._has_masks(found.level, kind):
+        if found.level == 0:  # our own art has no masks, whatever the format of the game
+            return sheet
+        if not self._has_masks(found.level, kind):
             if looks_like_mask(sheet.frames[0]):
                 self._black[name] = None
             return sheet
@@ -396,13 +409,13 @@ class Packs:
         return self._read(self._find([texture_file(full)]), full)
 
     def _read(self, found: PackFile | None, name: str, *, is_sheet: bool = False) -> Texture:
-        """The texture of a file, or the checker if it is None. Notes the name for the warnings.
+        """The texture of a file; MISSING if it is None.
 
+        name: of a sheet, for the warnings.
         is_sheet: whether it is stretched to a square; its size is checked before it is decoded.
         """
         if found is None:
-            self._missing[name] = None
-            return Texture((checker(),))
+            return MISSING
         if is_sheet and found.level > 0:
             self._used.add(found.level)
         elif is_sheet and len(self.packs) > 1:
@@ -558,6 +571,10 @@ def _voters(pack: Pack, kind: Kind) -> Iterator[Texels]:
 
 PackLike = str | Path | PackSource | Pack | Packs
 """A path, a MemoryPack or other source of files, an opened pack, or an opened stack."""
+
+
+_OWN_TEXTURES = TextureCache()
+"""Those of stacks without packs."""
 
 
 @lru_cache(maxsize=128)

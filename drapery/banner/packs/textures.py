@@ -152,6 +152,10 @@ def checker() -> Texels:
     return texels
 
 
+MISSING = Texture((checker(),))
+"""What is drawn for a missing texture."""
+
+
 def _frame_size(animation: dict[str, Any], width: int, height: int, name: str) -> tuple[int, int]:
     least = min(width, height)
     given = "width" in animation or "height" in animation
