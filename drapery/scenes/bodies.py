@@ -9,7 +9,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -25,7 +25,6 @@ from drapery.cloth import (
     Gravity,
     MovingCloth,
     Solver,
-    State,
     Wind,
     grid,
 )
@@ -70,6 +69,8 @@ over 20 % of the free flow: Eaton, Johnston, AIAA J. 19 (1981)."""
 LEAST_GUSTS, ALONG = 1e-3, 1e-6
 """The least gusts of a wind that runs along flat cloth, and the part of it across the cloth up to
 which it does: steady, it would leave the cloth perfectly flat at any speed."""
+MAX_KEPT = 4096
+"""The most particles of a cloth at rest that is kept."""
 MAX_CACHED = 16 << 20
 """A recorded motion is cached up to this size [bytes]."""
 
@@ -112,17 +113,6 @@ class ClothSpec:
             width *= 1 + self.fullness
         return grid(*self.shape, width, height, pins=self.pins, fabric=fabric)
 
-    def hang(self, cloth: Cloth) -> State:
-        """The cloth of `make_cloth` before its first step: gathered, if it is wider than `size`."""
-        return gathered_state(cloth, self.size[0])
-
-    def make_solver(self) -> Solver:
-        """The solver.
-
-        Raises OptionError for a name that is not known.
-        """
-        return solver(self.solver) if isinstance(self.solver, str) else self.solver
-
     def make_collisions(self) -> Collisions | None:
         """What the cloth meets; None if that is nothing."""
         if not self.solids and not self.itself:
@@ -150,14 +140,26 @@ def shown_fabric(fabric: Fabric, cell: float) -> Fabric:
 def cloth_at_rest(spec: ClothSpec, step: float = STEP) -> MovingCloth:
     """The cloth at time 0, as it hangs before its first time step.
 
+    For equal specs it is made once: pictures that differ in their wind begin with the same cloth.
+
     spec: how the cloth is made.
     step: the time step [s].
 
     Raises OptionError for a cloth or solver that cannot be made.
     """
-    cloth, met = spec.make_cloth(), spec.make_collisions()
-    start = spec.hang(cloth)
-    return MovingCloth.begin(cloth, spec.make_solver(), step, start=start, collisions=met)
+    # A solver that is given as an object may remember something of its cloth.
+    kept = isinstance(spec.solver, str) and math.prod(spec.shape) <= MAX_KEPT
+    return (_kept_at_rest if kept else _at_rest)(spec, step)
+
+
+def _at_rest(spec: ClothSpec, step: float) -> MovingCloth:
+    cloth = spec.make_cloth()
+    start = gathered_state(cloth, spec.size[0])
+    method = solver(spec.solver) if isinstance(spec.solver, str) else spec.solver
+    return MovingCloth.begin(cloth, method, step, start=start, collisions=spec.make_collisions())
+
+
+_kept_at_rest = lru_cache(maxsize=16)(_at_rest)
 
 
 def cloth_spec(panel: Panel, settings: Settings, solids: Sequence[Solid] = ()) -> ClothSpec:
@@ -333,9 +335,9 @@ class StagedBody:
         return replace(panel.piece, finer=finer_shell(panel.piece.shell, self.times))
 
     def _thick(self, panel: Panel, sheet: Array) -> Mesh:
-        piece, positions = self._piece(panel), sheet + panel.origin
+        piece, positions = panel.piece, sheet + panel.origin
         if self.times > 1 or self.staging.style.has("shape"):
-            return self.staging.turned(self.staging.style.mesh(piece, positions))
+            return self.staging.turned(self.staging.style.mesh(self._piece(panel), positions))
         return self.staging.turned(self._cover(piece.shell, positions, piece.thickness))
 
 
@@ -503,13 +505,9 @@ def in_lee(wind: Wind) -> Wind:
 
 def drape_of(spec: ClothSpec, settings: Settings) -> Drape:
     """The cloth of a spec in the wind of the settings. Raises OptionError."""
-    cloth = spec.make_cloth()
     return Drape(
-        cloth,
-        spec.hang(cloth),
-        spec.make_solver(),
+        partial(cloth_at_rest, spec),
         lambda period: forces_of(settings, wind_of(settings, period)),
-        spec.make_collisions(),
     )
 
 

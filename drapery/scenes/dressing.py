@@ -19,6 +19,7 @@ from drapery.cloth import (
     Collisions,
     Fabric,
     Force,
+    MovingCloth,
     Plane,
     State,
     Wind,
@@ -200,15 +201,17 @@ class Dressed:
 
     def drape(self, sewn: SewnCloth) -> Drape:
         """A cloth in the wind, with what it meets beside other garments."""
-        start, method = sewn.start[None], self.settings.solver
         return Drape(
-            sewn.cloth,
-            State(start, np.zeros_like(start)),
-            solver(method) if isinstance(method, str) else method,
+            lambda dt: self._begin(sewn, dt),
             lambda period: self.forces(sewn, period),
-            self._collisions(sewn),
             None if self.wearer is None else sewn.pin_path(self.wearer.poses),
         )
+
+    def _begin(self, sewn: SewnCloth, dt: float) -> MovingCloth:
+        start, method, met = sewn.start[None], self.settings.solver, self._collisions(sewn)
+        method = solver(method) if isinstance(method, str) else method
+        state = State(start, np.zeros_like(start))
+        return MovingCloth.begin(sewn.cloth, method, dt, start=state, collisions=met)
 
     def record(
         self, at: Schedule, on_moment: Callable[[int, int], object] | None = None

@@ -113,12 +113,12 @@ def _cycle_of(garment: Garment) -> tuple[float | None, tuple[int, int]]:
 
 def _played_cloth(worn: Dressed, sewn: SewnCloth) -> PlayedCloth:
     drape, settings, who = worn.drape(sewn), worn.settings, worn.garment.wearer
-    start = drape.start.positions.astype(np.float32)
-    single = replace(drape, start=State(start, np.zeros_like(start)))
+    start = sewn.start[None].astype(np.float32)
+    single = State(start, np.zeros_like(start))
     speed = 0.0 if who is None or isinstance(settings.wind, Wind) else who.speed
     wind, cycle = worn.wind(None), worn.cycle or (0, 1)
     return PlayedCloth(
-        single.begin(worn.step),
+        replace(drape.begin(worn.step), state=single),
         (Gravity(), wind, *settings.forces),
         replace(wind, velocity=wind_of(settings).velocity),
         sewn.pieces[0].shell,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from drapery.cloth import Cloth, Collisions, Force, MovingCloth, PinPath, Solver, State
+from drapery.cloth import Force, MovingCloth, PinPath, State
 from drapery.mesh import Array
 
 SETTLING = 8.0
@@ -83,23 +83,16 @@ class Schedule:
 
 @dataclass(frozen=True, eq=False)
 class Drape:
-    """A cloth before its first step, and all that acts on it.
+    """A cloth that is to be recorded, and what acts on it.
 
-    start: its state then. forces: those of a wind that repeats after a period [s], or does not.
-    collisions: what it meets beside other cloths. pins: the path of its pins; None if they rest.
+    begin: makes it before its first time step [s]; raises OptionError.
+    forces: those of a wind that repeats after a period [s], or does not.
+    pins: the path of its pins; None if they rest.
     """
 
-    cloth: Cloth
-    start: State
-    solver: Solver
+    begin: Callable[[float], MovingCloth]
     forces: Callable[[float | None], tuple[Force, ...]]
-    collisions: Collisions | None = None
     pins: PinPath | None = None
-
-    def begin(self, dt: float) -> MovingCloth:
-        """The cloth, to be moved by time steps dt [s]. Raises OptionError."""
-        met = self.collisions
-        return MovingCloth.begin(self.cloth, self.solver, dt, start=self.start, collisions=met)
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from drapery.cloth import Gravity, SolverXPBD, State, grid, rest_state, simulate
+from drapery.cloth import Gravity, MovingCloth, SolverXPBD, State, grid, simulate
 from drapery.scenes.recording import Drape, Meeting, Schedule, record
 
 STEP = 1 / 60
@@ -14,7 +14,7 @@ STEP = 1 / 60
 def drape(push: float = 0.0) -> Drape:
     cloth = grid(4, 5, 0.8, 1.0, pins="top")
     solver, forces = SolverXPBD(), (Gravity((push, -9.81, 0.0)),)
-    return Drape(cloth, rest_state(cloth), solver, lambda period: forces)
+    return Drape(lambda dt: MovingCloth.begin(cloth, solver, dt), lambda period: forces)
 
 
 @pytest.mark.parametrize("time", [0.0, 0.2, 2.05, 3.0, 8.3, 16.1])
@@ -42,7 +42,8 @@ def test_a_loop_is_recorded_when_the_cloth_has_settled() -> None:
 
 def test_moments_are_those_of_the_solver_in_any_order() -> None:
     hung = drape()
-    states = simulate(hung.cloth, hung.solver, hung.forces(None), STEP)
+    begun = hung.begin(STEP)
+    states = simulate(begun.cloth, begun.solver, hung.forces(None), STEP)
     expected = [next(states).positions[0] for _ in range(7)]
     (found,) = record([hung], Schedule.at([0.1, 0.0, 0.05, 0.1], STEP))
     assert np.array_equal(found, [expected[number] for number in (6, 0, 3, 6)])
@@ -66,7 +67,7 @@ def test_cloths_that_meet_are_resolved_after_each_step() -> None:
     meeting = Meeting([1, 2], resolve)  # type: ignore[arg-type]
     alone, held, free = record([drape(), drape(), drape()], at, meeting)
     assert len(seen) == 6
-    assert np.array_equal(held[0], drape().start.positions[0])
+    assert np.array_equal(held[0], drape().begin(STEP).state.positions[0])
     assert np.array_equal(free, alone)
 
 
