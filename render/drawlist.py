@@ -116,22 +116,25 @@ def draw_list(models: Sequence[Model]) -> DrawList:
 
 def make_topology(models: Sequence[Model]) -> Topology:
     """The constant part of the models' draw list; see `draw_list`."""
+    tables = make_material_tables([each for model in models for each in model.materials])
     arrays = tuple(
         part
         for model in models
-        for part in (model.mesh.triangles, model.mesh.uvs, model.material_index, *model.materials)
+        for part in (model.mesh.triangles, model.mesh.uvs, model.material_index)
     )
-    shapes = [(model.mesh.positions.shape, model.mesh.normals.shape) for model in models]
-    return _cache.get(arrays, shapes, lambda: _merge(models))
+    shapes = [
+        (model.mesh.positions.shape, model.mesh.normals.shape, len(model.materials))
+        for model in models
+    ]
+    return _cache.get((*arrays, tables), shapes, lambda: _merge(models, tables))
 
 
-def _merge(models: Sequence[Model]) -> Topology:
+def _merge(models: Sequence[Model], tables: MaterialTables) -> Topology:
     for number, model in enumerate(models):
         _check(number, model)
     vertices = [model.mesh.positions.size // 3 for model in models]
     starts = np.cumsum([0, *vertices], dtype=np.int64)
     _check_count(sum(_batch(model) * len(model.mesh.triangles) for model in models))
-    materials = [material for model in models for material in model.materials]
     first_material = np.cumsum([0, *(len(model.materials) for model in models)])
     empty = np.zeros((0, 3), np.int32)
     return Topology(
@@ -143,7 +146,7 @@ def _merge(models: Sequence[Model]) -> Topology:
             [empty[:, 0], *(_materials(m, f) for m, f in zip(models, first_material, strict=False))]
         ),
         starts,
-        make_material_tables(materials),
+        tables,
     )
 
 

@@ -4,6 +4,7 @@ Model units are 1/16 block with y down and z towards the back; the transform of 
 them upright and scales them by 2/3.
 """
 
+from functools import cache
 from typing import Literal
 
 import numpy as np
@@ -87,11 +88,13 @@ def flag_origin(placement: Placement) -> Array:
     return to_world(np.array([x, y, z + _FLAG_MIDDLE]))
 
 
+@cache
 def wood(placement: Placement) -> Mesh:
-    """Pole and bar, textured by `banner_base`."""
+    """Pole and bar, textured by `banner_base`: one object, which renderers recognise."""
     return upright(join([box_mesh(box) for box in _WOOD[placement]]), SCALE, _ORIGIN)
 
 
+@cache
 def solids(placement: Placement) -> tuple[Solid, ...]:
     """What a flag cannot enter: pole, bar, wall and ground.
 
