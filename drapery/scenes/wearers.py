@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from drapery.arrays import Texels
 from drapery.banner.dyes import DYES
 from drapery.banner.packs import Packs
 from drapery.banner.packs.texture_ids import texture_file
@@ -17,6 +18,7 @@ from drapery.garments.poses import BonePoses
 from drapery.garments.profiles import Profile, profile_of
 from drapery.garments.textures import read_texture
 from drapery.mesh import Mesh
+from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Model, Rig, TextureLayer
 from drapery.scenes.player_motion import player_poses, walk
 from drapery.style.boxes import box_mesh, upright
@@ -32,7 +34,7 @@ from drapery.style.equipment import (
 from drapery.style.figure import SKINS, TEXEL, FigurePart, Placed
 from drapery.style.horse import HORSE_BOXES, HORSE_PARTS, SHEET
 from drapery.style.rig import make_rig, rigged_model
-from drapery.style.skins import Skin, read_skin
+from drapery.style.skins import Arms, Overlay, Skin, read_skin
 
 Poses = Mapping[str, Placed]
 Draw = Callable[[Poses, tuple[str, ...] | None], tuple[Model, ...]]
@@ -115,10 +117,8 @@ def wearer_of(garment: Garment, packs: Packs, period: float | None = None) -> We
     material = Material((TextureLayer(skin.texels),), "cutout")
     poses = player_poses(who, garment.folder, skin.parts, period)
 
-    rig = cache(skin.rig)
-
     def draw(poses: Poses, bones: tuple[str, ...] | None) -> tuple[Model, ...]:
-        return (rigged_model(rig(bones), poses, material, "player"),)
+        return (rigged_model(skin.rig(bones), poses, material, "player"),)
 
     armor = {} if who.armor is None else armor_growth(who.armor)
     return Wearer(skin.parts, poses, draw, _equipment(who, packs, skin.parts), skin.growth, armor)
@@ -140,8 +140,7 @@ def _equipment(
 def _skin(who: GarmentWearer, folder: Path, packs: Packs) -> Skin:
     arms = None if who.arms == "auto" else who.arms
     if who.skin in SKINS:
-        texels = packs.texture(f"entity/player/{who.skin}")
-        return read_skin(texels, arms, overlay=who.overlay)
+        return _kept_skin(packs.texture(f"entity/player/{who.skin}"), arms, "skin", who.overlay)
     profile = profile_of(who.skin, folder)
     if profile is not None:
         return _skin_of(profile, who, packs)
@@ -162,7 +161,15 @@ def _skin_of(profile: Profile, who: GarmentWearer, packs: Packs) -> Skin:
         )
     arms = profile.arms if who.arms == "auto" else who.arms
     texels = packs.texture(profile.texture)
-    return read_skin(texels, arms, f"skin {profile.texture}", who.overlay)
+    return _kept_skin(texels, arms, f"skin {profile.texture}", who.overlay)
+
+
+def _kept_skin(texels: Texels, arms: Arms | None, name: str, overlay: Overlay) -> Skin:
+    """The skin of a texture of packs, which does not change; see `read_skin`."""
+    return _skins.get((texels,), (arms, overlay), lambda: read_skin(texels, arms, name, overlay))
+
+
+_skins: IdentityCache[Skin] = IdentityCache()
 
 
 def _horse(packs: Packs) -> Draw:

@@ -5,7 +5,7 @@ A skin is 64 x 64 texels, or a multiple, with a second layer over each part. Unt
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any, Literal
 
@@ -67,12 +67,17 @@ def skin_tables() -> dict[str, Any]:
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """A skin as it is drawn. texels: uint8, shape [64 n, 64 n, 4]. arms: classic or slim.
-    overlay: how its second layer is drawn."""
+    """A skin as it is drawn.
+
+    texels: uint8, shape [64 n, 64 n, 4].
+    arms: classic or slim.
+    overlay: how its second layer is drawn.
+    """
 
     texels: Texels
     arms: Arms
     overlay: Overlay = "flat"
+    _rigs: dict[tuple[str, ...] | None, Rig] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def parts(self) -> Mapping[str, FigurePart]:
@@ -90,8 +95,13 @@ class Skin:
         return join([posed(mesh, poses.get(name)) for name, mesh in self._drawn(bones)])
 
     def rig(self, bones: tuple[str, ...] | None = None) -> Rig:
-        """Both layers on their bones. bones: those that are drawn; all unless given."""
-        return make_rig(self._drawn(bones), self.parts)
+        """Both layers on their bones: one object for the same bones, which renderers recognise.
+
+        bones: those that are drawn; all unless given.
+        """
+        if bones not in self._rigs:
+            self._rigs[bones] = make_rig(self._drawn(bones), self.parts)
+        return self._rigs[bones]
 
     def _drawn(self, bones: tuple[str, ...] | None) -> list[tuple[str, Mesh]]:
         return [(n, m) for n, m in self._rest if bones is None or n in bones]
@@ -120,9 +130,12 @@ def _at_rest(box: ModelBox) -> Mesh:
 def read_skin(
     texels: Texels, arms: Arms | None = None, name: str = "skin", overlay: Overlay = "flat"
 ) -> Skin:
-    """A skin of any layout. arms: found from the texels unless given.
+    """A skin of any layout.
 
-    name: what messages call it. overlay: see `Skin`. Raises OptionError for another size.
+    arms: found from the texels unless given.
+    name: what messages call it.
+    overlay: see `Skin`.
+    Raises OptionError for another size.
     """
     height, width = texels.shape[:2]
     unit = width // SIDE
