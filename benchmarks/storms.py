@@ -33,7 +33,7 @@ from drapery.garments import PlayerSettings, find_garment, garment_names, player
 from drapery.packs import open_packs
 from drapery.player_settings import MOTIONS
 from drapery.render import contact_sheet, draw_scene
-from drapery.scenes import STEP, Dressed, LiveBody, Schedule, cloth_spec
+from drapery.scenes import STEP, Dressed, LiveBody, Schedule
 from drapery.style import body_of
 
 Options = dict[str, Any]
@@ -170,7 +170,7 @@ def _staged(storm: Storm, settings: Settings, seconds: float) -> tuple[float, fl
         settings = Settings(**{**settings.given_values, "texture": _cape_texture()})
     body = body_of(design, packs, settings)
     live, stretch, depth = LiveBody(body, settings), 0.0, -np.inf
-    met = [cloth_spec(panel, settings, body.solids).make_collisions() for panel in body.panels]
+    met = [panel.cloth.make_collisions() for panel in body.panels]
     for _ in range(round(seconds / STEP) // EVERY):
         live.advance(EVERY)
         for moving, collisions in zip(live.cloths, met, strict=True):

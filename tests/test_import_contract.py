@@ -73,7 +73,7 @@ ALLOWED: dict[str, set[str]] = {
     "packs": {"banner"},
     "cloth": set(),
     "render": set(),
-    "style": {"banner", "render"},
+    "style": {"banner", "render", "cloth"},
     "styles": {"style", "render", "banner", "cloth"},
     "garments": {"style", "render", "banner", "cloth"},
     "scenes": set(),

@@ -22,11 +22,8 @@ if TYPE_CHECKING:
     from drapery.scenes.bodies import (
         STEP as STEP,
         WIND_AXIS as WIND_AXIS,
-        ClothSpec as ClothSpec,
         LiveBody as LiveBody,
         StagedBody as StagedBody,
-        cloth_at_rest as cloth_at_rest,
-        cloth_spec as cloth_spec,
         flow as flow,
         wind_of as wind_of,
     )

@@ -8,7 +8,7 @@ to its place when it is drawn.
 import math
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache, partial
 
 import numpy as np
@@ -16,28 +16,20 @@ import numpy as np
 from drapery.arrays import Vectors
 from drapery.cloth import (
     FABRICS,
-    Box,
-    Cloth,
-    Collider,
-    Collisions,
     Fabric,
     Force,
     Gravity,
     MovingCloth,
-    Solver,
     Wind,
-    grid,
 )
-from drapery.cloth.gathering import fold_count, gathered_state
-from drapery.cloth.pins import PinName
-from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material, Model, Scene
 from drapery.render.vectors import unit
 from drapery.scenes.recording import Drape, Schedule, record
 from drapery.scenes.staging import Staging
 from drapery.settings import Settings
-from drapery.style.body import Body, Panel, Solid
+from drapery.style.body import Body, Panel
+from drapery.style.cloth_spec import ClothSpec, cloth_at_rest
 from drapery.style.extrusion import Shell, thicken
 from drapery.style.finish import finished
 from drapery.style.grids import finer_shell
@@ -49,10 +41,6 @@ STEP = 1.0 / 60.0
 """The longest time step of a picture, and the time step of live cloth [s]."""
 WIND_AXIS = (0.35, 0.0, 1.0)
 """Where the wind blows to unless a direction is given: to the front and a little to the right."""
-ENDLESS = 1e3
-"""A solid without an end is a box up to this coordinate [m]."""
-THINNEST = 0.1
-"""Thinner cloth keeps the distance of this thickness from solids [texels]."""
 RIPPLES, VORTICES = 2.5, 0.75
 """Ripples and vortices of a picture's wind, over the strength of its gusts."""
 RIPPLE_SIZE = 0.5
@@ -60,128 +48,14 @@ RIPPLE_SIZE = 0.5
 AIR = 1.2 * RIPPLE_SIZE / math.pi
 """Mass of the air that moves with the cloth under such a ripple [kg/m²]: its density over the wave
 number, on each face (Lamb, "Hydrodynamics", § 231)."""
-STRONG_WIND, CELLS = 8.0, 5
-"""A fabric with bending is at least so stiff that a wind of this speed [m/s] drives no folds
-shorter than so many cells of the grid; but none is made stiffer than wool."""
 LEE = 0.4
 """Behind a wall the wind across it keeps this part of its speed. Backflow behind a step reaches
 over 20 % of the free flow: Eaton, Johnston, AIAA J. 19 (1981)."""
 LEAST_GUSTS, ALONG = 1e-3, 1e-6
 """The least gusts of a wind that runs along flat cloth, and the part of it across the cloth up to
 which it does: steady, it would leave the cloth perfectly flat at any speed."""
-MAX_KEPT = 4096
-"""The most particles of a cloth at rest that is kept."""
 MAX_CACHED = 16 << 20
 """A recorded motion is cached up to this size [bytes]."""
-
-
-@dataclass(frozen=True)
-class ClothSpec:
-    """How the cloth of a panel is made. Equal specs make equal cloths.
-
-    shape: particles across and down.
-    size: width and height [m].
-    pins: which particles are pinned.
-    solver: its name, or a Solver.
-    fabric: its name, or a Fabric; None is the default of `grid`.
-    solids: what it cannot enter, in its own frame.
-    itself: whether it also meets itself.
-    thickness: of the cloth [m].
-    fullness: how much wider the cloth is than its top edge, on which it is gathered; only if it is
-        pinned along the top, on a grid that is fine enough for folds.
-    """
-
-    shape: tuple[int, int]
-    size: tuple[float, float]
-    pins: PinName
-    solver: str | Solver
-    fabric: str | Fabric | None = None
-    solids: tuple[Solid, ...] = ()
-    itself: bool = False
-    thickness: float = 0.0
-    fullness: float = 0.0
-
-    def make_cloth(self) -> Cloth:
-        """The cloth at rest, which is flat.
-
-        Raises OptionError.
-        """
-        width, height = self.size
-        fabric = FABRICS[self.fabric] if isinstance(self.fabric, str) else self.fabric or Fabric()
-        fabric = shown_fabric(fabric, height / (self.shape[1] - 1))
-        if self.pins == "top" and fold_count(self.shape[0]):
-            width *= 1 + self.fullness
-        return grid(*self.shape, width, height, pins=self.pins, fabric=fabric)
-
-    def make_collisions(self) -> Collisions | None:
-        """What the cloth meets; None if that is nothing."""
-        if not self.solids and not self.itself:
-            return None
-        boxes = []
-        for solid in self.solids:
-            low, high = (np.clip(corner, -ENDLESS, ENDLESS) for corner in (solid.low, solid.high))
-            boxes.append(Collider(Box((low + high) / 2, high - low)))
-        return Collisions(boxes, self.thickness, apart=self.thickness if self.itself else None)
-
-
-def shown_fabric(fabric: Fabric, cell: float) -> Fabric:
-    """The fabric, stiff enough that a grid shows its folds. cell: the side of a cell [m].
-
-    Pressure that follows the slope of the cloth drives waves of every length, but the bending
-    rigidity B stops those shorter than 2π (B / (p U))^(1/3), where p is the pressure of a `Wind` at
-    1 m/s and U its speed. Those of a light fabric would be smaller than the cells, and crumple.
-    A fabric without bending stays as it is.
-    """
-    wave = CELLS * cell / (2 * math.pi)
-    least = min(Wind.pressure * STRONG_WIND * wave**3, FABRICS["wool"].bending)
-    return replace(fabric, bending=least) if 0 < fabric.bending < least else fabric
-
-
-def cloth_at_rest(spec: ClothSpec, step: float = STEP) -> MovingCloth:
-    """The cloth at time 0, as it hangs before its first time step.
-
-    For equal specs it is made once: pictures that differ in their wind begin with the same cloth.
-
-    spec: how the cloth is made.
-    step: the time step [s].
-
-    Raises OptionError for a cloth or solver that cannot be made.
-    """
-    # A solver that is given as an object may remember something of its cloth.
-    kept = isinstance(spec.solver, str) and math.prod(spec.shape) <= MAX_KEPT
-    return (_kept_at_rest if kept else _at_rest)(spec, step)
-
-
-def _at_rest(spec: ClothSpec, step: float) -> MovingCloth:
-    cloth = spec.make_cloth()
-    start = gathered_state(cloth, spec.size[0])
-    method = solver(spec.solver) if isinstance(spec.solver, str) else spec.solver
-    return MovingCloth.begin(cloth, method, step, start=start, collisions=spec.make_collisions())
-
-
-_kept_at_rest = lru_cache(maxsize=16)(_at_rest)
-
-
-def cloth_spec(panel: Panel, settings: Settings, solids: Sequence[Solid] = ()) -> ClothSpec:
-    """How the settings make a panel's cloth.
-
-    panel: where the cloth hangs.
-    settings: the options of the picture.
-    solids: of its body, see `Body`.
-    """
-    pins = settings.pins or panel.pins
-    met = solids if settings.contact != "none" else ()
-    x, y, z = map(float, panel.origin)
-    moved = tuple(Solid(_less(solid.low, x, y, z), _less(solid.high, x, y, z)) for solid in met)
-    thickness = max(settings.thickness, THINNEST) * panel.piece.texel
-    made = settings.grid, panel.piece.size, pins, settings.solver, settings.fabric
-    return ClothSpec(*made, moved, settings.contact == "all", thickness, panel.fullness)
-
-
-def _less(corner: tuple[float, float, float], *origin: float) -> tuple[float, float, float]:
-    """A corner relative to an origin [m]."""
-    x, y, z = (a - b for a, b in zip(corner, origin, strict=True))
-    return x, y, z
 
 
 class StagedBody:
@@ -273,7 +147,7 @@ class StagedBody:
         Raises OptionError for cloth that cannot be moved.
         """
         settings = self.staging.settings
-        specs = tuple(_specs(self.body, settings)) if settings.pose == "cloth" else ()
+        specs = tuple(panel.cloth for panel in self.body.panels) if settings.pose == "cloth" else ()
         particles = sum(math.prod(spec.shape) for spec in specs)
         size = len(at.moments) * particles * 3 * np.dtype(float).itemsize
         named = isinstance(settings.solver, str) and not isinstance(settings.fabric, Fabric)
@@ -369,7 +243,7 @@ class LiveBody(StagedBody):
         self.steps = 0
         if cloths is None:
             moves = settings.pose == "cloth"
-            cloths = [cloth_at_rest(spec) for spec in _specs(body, settings) if moves]
+            cloths = [cloth_at_rest(panel.cloth, STEP) for panel in body.panels if moves]
         self.cloths = list(cloths)
 
     @property
@@ -433,10 +307,6 @@ def texture_times(period: float, count: int, fps: float) -> tuple[float, ...]:
 
 def _phase(panel: Panel, time: float) -> float:
     return time / panel.sway if panel.sway else 0.0
-
-
-def _specs(body: Body, settings: Settings) -> list[ClothSpec]:
-    return [cloth_spec(panel, settings, body.solids) for panel in body.panels]
 
 
 def flow(speed: float, direction: float | None) -> tuple[float, float, float]:

@@ -28,8 +28,6 @@ from drapery.scenes.bodies import (
     LEE,
     STEP,
     StagedBody,
-    cloth_at_rest,
-    cloth_spec,
     forces_of,
     wind_of,
 )
@@ -38,6 +36,7 @@ from drapery.scenes.staging import Staging
 from drapery.settings import Settings
 from drapery.style.block import turn_centre, turn_matrix
 from drapery.style.body import Body, Panel
+from drapery.style.cloth_spec import cloth_at_rest
 from drapery.style.extrusion import Shell
 from drapery.style.grids import finer_shell
 from drapery.style.live_figure import LiveFigure, pose_figure
@@ -132,10 +131,10 @@ def played_body(body: Body, settings: Settings) -> PlayedSubject:
 
     Raises OptionError for settings that cannot be played.
     """
-    pulled = settings.changed(contact="world") if settings.contact == "all" else settings
-    staged = StagedBody(body, pulled)
+    staged = StagedBody(body, settings)
     _check_played(staged.staging)
-    cloths = tuple(_played_cloth(staged, panel) for panel in body.panels)
+    pulled = (replace(each, cloth=replace(each.cloth, itself=False)) for each in body.panels)
+    cloths = tuple(_played_cloth(staged, panel) for panel in pulled)
     return PlayedSubject(staged.staging, cloths)
 
 
@@ -217,7 +216,7 @@ def _played_cloth(staged: StagedBody, panel: Panel, step: float = STEP) -> Playe
     sheltered = settings.placement == "wall" and isinstance(settings.wind, int | float)
     (rows, columns), piece = panel.piece.grid_shape, panel.piece
     return PlayedCloth(
-        cloth_at_rest(cloth_spec(panel, settings, staged.body.solids), step),
+        cloth_at_rest(panel.cloth, step),
         forces_of(settings, wind),
         wind,
         piece.shell,

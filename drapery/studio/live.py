@@ -16,7 +16,7 @@ from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.packs import Packs
 from drapery.render import Camera, Model
-from drapery.scenes import STEP, LiveBody, cloth_spec, floor_under
+from drapery.scenes import STEP, LiveBody, floor_under
 from drapery.settings import OPTIONS, Settings
 from drapery.studio.live_cloth import LiveCloth, new_live_cloth
 from drapery.studio.wind_controls import (
@@ -65,7 +65,7 @@ class Live:
         self._held: int | None = None
         self._shadow: tuple[int, Model] | None = None
         self._live = LiveBody(body_of(design, packs, settings), settings, (), cover=_thicken)
-        self._live.cloths = [*self._cloths_for(self._live.body, settings)]
+        self._live.cloths = [*self._cloths_for(self._live.body)]
 
     @property
     def time(self) -> float:
@@ -94,7 +94,7 @@ class Live:
         before, settings = self._live, _lit(design, settings)
         body = body_of(design, packs, settings)
         other = None if beside is None else body_of(design, beside, settings)
-        live = LiveBody(body, settings, self._cloths_for(body, settings), cover=_thicken)
+        live = LiveBody(body, settings, self._cloths_for(body), cover=_thicken)
         live.wind, live.steps = before.wind, before.steps
         self._live, self._other = live, other
         self._captions = captions if other is not None else ("",)
@@ -218,12 +218,12 @@ class Live:
         """The cloths that move, by number."""
         return [cloth for cloth in self._live.cloths if isinstance(cloth, LiveCloth)]
 
-    def _cloths_for(self, body: Body, settings: Settings) -> list[LiveCloth]:
+    def _cloths_for(self, body: Body) -> list[LiveCloth]:
         """A cloth for each panel: the current one, or a new one if its spec has changed."""
         old = dict(enumerate(self.cloths))
         cloths = []
         for number, panel in enumerate(body.panels):
-            spec, cloth = cloth_spec(panel, settings, body.solids), old.get(number)
+            spec, cloth = panel.cloth, old.get(number)
             if cloth is None or cloth.spec != spec:
                 self._disturbed |= self._live.steps > 0
                 cloth = new_live_cloth(spec) if cloth is None else cloth.remade(spec)

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from drapery.cloth import Cloth, Force, MovingCloth, PinPath, State
 from drapery.mesh import Array
-from drapery.scenes import STEP, ClothSpec, cloth_at_rest
+from drapery.scenes import STEP
+from drapery.style import ClothSpec, cloth_at_rest
 
 EASE = 0.35
 """The share of the distance to its target that a held particle moves in a time step."""
@@ -167,7 +168,7 @@ def _free(spec: ClothSpec) -> ClothSpec:
 
 def new_live_cloth(spec: ClothSpec) -> LiveCloth:
     """A cloth at rest. Raises OptionError."""
-    rest = cloth_at_rest(spec)
+    rest = cloth_at_rest(spec, STEP)
     return LiveCloth(**vars(rest), spec=spec, whole=rest.cloth, hung=rest.state.positions[0])
 
 

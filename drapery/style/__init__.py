@@ -32,6 +32,10 @@ if TYPE_CHECKING:
         Panel as Panel,
         Part as Part,
     )
+    from drapery.style.cloth_spec import (
+        ClothSpec as ClothSpec,
+        cloth_at_rest as cloth_at_rest,
+    )
     from drapery.style.crowds import cover_crowd as cover_crowd
     from drapery.style.extrusion import (
         Shell as Shell,

@@ -12,8 +12,8 @@ import numpy as np
 from drapery.elementary import cos, sin, sine_of_turns
 from drapery.mesh import Array, Mesh
 from drapery.style.board import moved, stiff_board, tilted
-from drapery.style.body import Solid, half_space
 from drapery.style.boxes import ModelBox, box_mesh, join, upright
+from drapery.style.cloth_spec import Solid, half_space
 from drapery.style.uv_mapping import box_mapping
 
 Placement = Literal["standing", "wall"]

@@ -41,8 +41,6 @@ from drapery.scenes import (
     LiveBody,
     PlayedSubject,
     Staging,
-    cloth_at_rest,
-    cloth_spec,
     first_scene,
     floor_under,
     live_picture,
@@ -126,12 +124,14 @@ def fabric_bytes(packs: Packs, settings: Settings) -> bytes:
     A byte is the one of the fabric's plan, exclusive or that of the scene's own. Raises as
     `scene_bytes` does.
     """
-    body = body_of(Banner(), packs, settings)
 
-    (own,) = plans_of(played_body(body, settings))
-    found = {}
+    def plan_of(asked: Settings) -> bytes:
+        (plan,) = plans_of(played_body(body_of(Banner(), packs, asked), asked))
+        return plan
+
+    own, found = plan_of(settings), {}
     for name in get_args(FabricName):
-        (plan,) = plans_of(played_body(body, settings.changed(fabric=name)))
+        plan = plan_of(settings.changed(fabric=name))
         pair = [np.frombuffer(each, np.uint8) for each in (own, plan)]
         longest = max(map(len, pair))
         one, other = (np.pad(each, (0, longest - len(each))) for each in pair)
@@ -286,11 +286,9 @@ def _framed(live: LiveBody) -> list[Array]:
 
 def _swings(live: LiveBody) -> list[Array]:
     """Where light wind moves the cloth [m], each [N, 3]."""
-    specs = [cloth_spec(panel, live.staging.settings) for panel in live.body.panels]
-    rests = [cloth_at_rest(spec).cloth.rest_positions for spec in specs]
     points = [
-        rest + panel.origin + swing
-        for rest, panel in zip(rests, live.body.panels, strict=True)
+        panel.cloth.make_cloth().rest_positions + panel.origin + swing
+        for panel in live.body.panels
         for swing in SWINGS
     ]
     nothing = np.zeros((0, 3), np.int32)

@@ -205,9 +205,10 @@ def test_a_command_with_plain_options_imports_what_it_needs(tmp_path):
 
 def test_cloth_of_a_picture_is_made_without_scipy():
     """Its import would take half the time of a later picture; numba imports it too."""
-    program = "import sys; from drapery.scenes import ClothSpec, cloth_at_rest\n"
+    program = "import sys; from drapery.style import ClothSpec, cloth_at_rest\n"
     program += (
-        "cloth_at_rest(ClothSpec((5, 9), (1.0, 2.0), 'top', 'xpbd', itself=True, thickness=0.1))\n"
+        "spec = ClothSpec((5, 9), (1.0, 2.0), 'top', 'xpbd', itself=True, thickness=0.1)\n"
+        "cloth_at_rest(spec, 1 / 60)\n"
     )
     program += "print('scipy' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)

@@ -19,7 +19,7 @@ from drapery.errors import OptionError
 from drapery.render.drawlist import draw_list
 from drapery.render.light import GAME_LIGHT
 from drapery.render.soft import draw_scene
-from drapery.scenes import STEP, ClothSpec, still, wind_of
+from drapery.scenes import STEP, still, wind_of
 from drapery.settings import OPTIONS, Settings
 from drapery.studio.chosen_scene import SceneChoice
 from drapery.studio.live import Live, Ray
@@ -35,6 +35,7 @@ from drapery.studio.wind_controls import (
     steered,
     wind_controls_of,
 )
+from drapery.style import ClothSpec
 from drapery.web.messages import MessageEncoder, pack, unpack
 
 DESIGN = Banner.parse("white creeper:lime border:black")

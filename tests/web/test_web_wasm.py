@@ -22,7 +22,7 @@ from drapery.cloth.forces import lower_forces
 from drapery.packs import open_packs
 from drapery.render import draw_scene
 from drapery.scenes import LiveBody, live_panels, live_picture, played_body, still
-from drapery.scenes.bodies import cloth_spec, forces_of, wind_of
+from drapery.scenes.bodies import forces_of, wind_of
 from drapery.style import Body, body_of
 from drapery.web.wasm import build
 from drapery.web.wasm.module import module_info, smallest_module
@@ -111,7 +111,7 @@ def test_the_start_has_the_wind_of_python() -> None:
     (panel,) = live_panels(played_body(body, settings))
     aim = panel.calls["aim"]
     assert aim.function(*aim.arguments) == 0
-    cloth = cloth_spec(body.panels[0], settings, body.solids).make_cloth()
+    cloth = body.panels[0].cloth.make_cloth()
     expected = lower_forces(forces_of(settings, wind_of(settings)), cloth, 1).gusts
     turned = aim.arguments[2]
     for name in ("numbers", "seeds", "rates", "turns", "sines", "cosines"):

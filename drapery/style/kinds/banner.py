@@ -16,6 +16,7 @@ from drapery.style.block import (
     wood,
 )
 from drapery.style.body import Body, Panel, Part
+from drapery.style.cloth_spec import hanging_cloth
 from drapery.style.grids import grid_shell
 from drapery.style.layers import flag_material_at, textures_period, wood_material_at
 from drapery.style.piece import Piece
@@ -36,6 +37,8 @@ def body(banner: Banner | None, packs: Packs, settings: Settings) -> Body:
 
 def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placement) -> Body:
     columns, rows = settings.grid
+    origin = flag_origin(placement)
+    cloth = hanging_cloth(settings, FLAG_SIZE, SCALE, origin, solids(placement), FULLNESS)
     piece = Piece(
         grid_shell(rows, columns, FLAG_MAPPING),
         settings.thickness * SCALE,
@@ -45,16 +48,15 @@ def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placemen
         "banner/cloth",
     )
     flag = Panel(
+        cloth,
         piece,
-        flag_origin(placement),
-        "top",
+        origin,
         lambda phase: stiff_flag(placement, phase, settings.thickness),
         SWAY_PERIOD,
-        FULLNESS,
     )
     frame = Part(wood(placement), wood_material_at(packs, settings), "banner/pole")
     period = textures_period(banner, packs, "banner")
-    return Body((frame,), (flag,), period, solids=solids(placement))
+    return Body((frame,), (flag,), period)
 
 
 def _item(banner: Banner, packs: Packs, settings: Settings) -> Body:

@@ -8,7 +8,8 @@ from drapery.mesh import Mesh
 from drapery.render.scene import Material, TextureLayer
 from drapery.settings import Settings
 from drapery.style.board import moved, stiff_board, tilted
-from drapery.style.body import Body, Panel, Solid, half_space
+from drapery.style.body import Body, Panel
+from drapery.style.cloth_spec import Solid, half_space, hanging_cloth
 from drapery.style.figure import CAPE_SIZE, PARTS, TEXEL, cape_mapping
 from drapery.style.grids import grid_shell
 from drapery.style.kinds.back import SHEET, SHOULDERS, back_texture
@@ -34,8 +35,9 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
         "cape/cloth",
     )
     shoulders = np.array(SHOULDERS)
-    cape = Panel(piece, shoulders, "top", lambda phase: _stiff(settings.thickness), None)
-    return Body((), (cape,), solids=_wearer())
+    cloth = hanging_cloth(settings, CAPE_SIZE, TEXEL, shoulders, _wearer())
+    cape = Panel(cloth, piece, shoulders, lambda phase: _stiff(settings.thickness))
+    return Body((), (cape,))
 
 
 def _wearer() -> tuple[Solid, ...]:
