@@ -127,7 +127,7 @@ def undrawn_service() -> Iterator[Any]:
         with mock.patch.object(service, "JobQueue"):
             client = running.enter_context(TestClient(app))
         # Of this service alone: other tests in this process draw with one of their own.
-        app.state.service._draw = drawn
+        app.state.service.draw = drawn
         yield client
 
 

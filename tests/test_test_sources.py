@@ -22,14 +22,18 @@ def is_private(name: str) -> bool:
     return re.match(r"_[^_]", name) is not None
 
 
+def is_own(node: ast.Attribute) -> bool:
+    return ast.unparse(node.value) in ("self", "cls")
+
+
 def defined_in(tree: ast.AST) -> Iterator[str]:
-    """The names of all functions, classes, variables and attributes that a module defines."""
+    """The names of all functions, classes, variables and own attributes that a module defines."""
     for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
             yield node.name
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
             yield node.id
-        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) and is_own(node):
             yield node.attr
 
 
@@ -55,6 +59,8 @@ def faults(text: str) -> Iterator[str]:
                 yield from (f"line {node.lineno}: imports {name}" for name in used)
         elif isinstance(node, ast.Attribute) and node.attr in private:
             yield f"line {node.lineno}: uses {ast.unparse(node)}"
+        elif isinstance(node, ast.keyword) and node.arg in private:
+            yield f"line {node.lineno}: gives {node.arg}"
         elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in CALLS:
             texts = (each.value for each in node.args if isinstance(each, ast.Constant))
             for name in (str(each).split(".")[-1] for each in texts):
@@ -70,6 +76,7 @@ def test_a_test_uses_public_names(path: Path) -> None:
 def test_the_sweep_finds_private_names_and_tests() -> None:
     name = sorted(private_names())[0]
     text = (
-        f"from test_x import y\nfrom drapery.jit import _z\njit.{name}\nsetattr(jit, '{name}', 1)"
+        f"from test_x import y\nfrom drapery.jit import _z\njit.{name}\nsetattr(jit, '{name}', 1)\n"
+        f"jit.{name} = 1\njit.make({name}=1)"
     )
-    assert [line.partition(":")[0] for line in faults(text)] == [f"line {n}" for n in (1, 2, 3, 4)]
+    assert [line.partition(":")[0] for line in faults(text)] == [f"line {n}" for n in range(1, 7)]

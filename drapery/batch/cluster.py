@@ -37,7 +37,13 @@ class LostError(BackendError):
 
 @dataclass
 class DaskExecutor:
-    """The workers of a cluster; see `executor.Executor`. cluster: closed with it, or None."""
+    """The workers of a cluster; see `executor.Executor`.
+
+    cluster: closed with it, or None.
+    threads: of all its workers, when they were last counted.
+    counted: when that was, by the monotonic clock [s].
+    pace: mean duration of the last jobs [s].
+    """
 
     client: Any
     store: Store
@@ -49,21 +55,21 @@ class DaskExecutor:
     _digests: DigestCache = field(default_factory=DigestCache)
     _gathered: list[Job] = field(default_factory=list)
     _number: int = 0
-    _threads: int = 0
-    _counted: float = -COUNT_INTERVAL
+    threads: int = 0
+    counted: float = -COUNT_INTERVAL
     _heard: float = 0.0
-    _pace: float = TASK_SECONDS
+    pace: float = TASK_SECONDS
 
     def free(self) -> int:
         """See `Executor`."""
-        if time.monotonic() - self._counted > COUNT_INTERVAL:
+        if time.monotonic() - self.counted > COUNT_INTERVAL:
             self._count()
         busy = sum(len(jobs) for _, jobs in self._running.values()) + len(self._gathered)
-        return AHEAD * max(1, self._threads) * self._in_task() - busy
+        return AHEAD * max(1, self.threads) * self._in_task() - busy
 
     def ready(self) -> bool:
         """See `Executor`."""
-        return self._threads > 0
+        return self.threads > 0
 
     def start(self, job: Job) -> None:
         """See `Executor`. Jobs are sent in groups, at the latest when `poll` is called."""
@@ -89,12 +95,12 @@ class DaskExecutor:
                 self._sent.clear()
             results += received or _lost(future, jobs)
         for result in results:
-            self._pace += 0.1 * (result.seconds - self._pace)
+            self.pace += 0.1 * (result.seconds - self.pace)
         return results
 
     def _in_task(self) -> int:
         """The number of jobs in a task, from the duration of the last jobs."""
-        return max(1, min(MAX_IN_TASK, round(TASK_SECONDS / max(self._pace, 1e-3))))
+        return max(1, min(MAX_IN_TASK, round(TASK_SECONDS / max(self.pace, 1e-3))))
 
     def _submit(self) -> None:
         """Send the gathered jobs as one task."""
@@ -126,13 +132,13 @@ class DaskExecutor:
                     logging.getLogger(__name__).debug("closing: %s", error)
 
     def _count(self) -> None:
-        self._counted = time.monotonic()
+        self.counted = time.monotonic()
         try:
-            self._threads = sum(self.client.nthreads().values())
+            self.threads = sum(self.client.nthreads().values())
         except Exception as error:
             # Asked again soon; `poll` reports when the scheduler has ended.
             logging.getLogger(__name__).debug("the threads cannot be counted: %s", error)
-            self._threads = 0
+            self.threads = 0
 
     def _check_scheduler(self) -> None:
         now = time.monotonic()

@@ -148,7 +148,7 @@ class PictureService:
             return Response(status_code=304, headers=headers)
         data = self.cache.get(job.key)
         if data is None:
-            drawn = await self._draw(request, job, end)
+            drawn = await self.draw(request, job, end)
             if isinstance(drawn, Response):
                 return drawn
             data = drawn
@@ -200,7 +200,7 @@ class PictureService:
         self.metrics.seconds.observe(result.seconds)
         return data
 
-    async def _draw(self, request: Request, job: Job, end: float) -> bytes | Response:
+    async def draw(self, request: Request, job: Job, end: float) -> bytes | Response:
         """The picture, drawn before the end of time.monotonic(), or why there is none."""
         try:
             answer = self.queue.ask(job, lambda: self.cache.get(job.key))

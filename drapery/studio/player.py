@@ -76,11 +76,12 @@ class Player:
     """Plays a show from its first moment to its last, in a loop.
 
     size: width and height of the picture for which it is framed [pixels].
+    clip: what it plays: the moments of the show, framed for the picture.
     """
 
     def __init__(self, show: Show, size: tuple[int, int] = (640, 480)) -> None:
         self.show = show
-        self._clip: Clip = replace(show.clip, size=_framed_size(size))
+        self.clip: Clip = replace(show.clip, size=_framed_size(size))
         self._prepared: Future[list[ViewerState]] | None = None
         self._cache: list[ViewerState] = []
         self._starts = 0
@@ -91,7 +92,7 @@ class Player:
     @property
     def fps(self) -> float:
         """Moments per second."""
-        return self._clip.fps
+        return self.clip.fps
 
     def step(self) -> ViewerState:
         """The next moment; after the last moment comes the first.
@@ -99,7 +100,7 @@ class Player:
         A show with a first picture shows it until a thread has simulated all moments.
         """
         if self.show.first is not None and self._prepared is None:
-            first = shown_picture(self.show.first(self._clip))  # it may raise PackError
+            first = shown_picture(self.show.first(self.clip))  # it may raise PackError
             self._prepared = Future()
             self.now = replace(first, cut=(self.show.name, "first"))
             threading.Thread(target=self._prepare, name="show", daemon=True).start()
@@ -111,13 +112,13 @@ class Player:
         if shown is None:
             self._restart()
             shown = next(self._upcoming)
-        self.now = replace(shown, cut=(self.show.name, self._clip.size, self._starts))
+        self.now = replace(shown, cut=(self.show.name, self.clip.size, self._starts))
         return self.now
 
     def _prepare(self) -> None:
         assert self._prepared is not None
         try:
-            pictures = self.show.play(self._clip, self._check_open)
+            pictures = self.show.play(self.clip, self._check_open)
             self._prepared.set_result([*map(shown_picture, pictures)])
         except Exception as error:  # `step` raises it
             self._prepared.set_exception(error)
@@ -137,15 +138,15 @@ class Player:
         self.step()
 
     def _restart(self) -> None:
-        whole = len(self._cache) == self._clip.count
+        whole = len(self._cache) == self.clip.count
         self._upcoming = iter(self._cache) if whole else self._simulated()
 
     def _simulated(self) -> Iterator[ViewerState]:
         """Simulate all moments; caches them unless they exceed the cache's limit."""
         self._cache = []
-        for picture in self.show.play(self._clip, self._check_open):
+        for picture in self.show.play(self.clip, self._check_open):
             shown = shown_picture(picture)
-            if self._clip.count * _changing_bytes(picture) <= MAX_CACHED:
+            if self.clip.count * _changing_bytes(picture) <= MAX_CACHED:
                 self._cache.append(shown)
             yield shown
 

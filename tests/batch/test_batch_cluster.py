@@ -56,11 +56,11 @@ def test_a_cluster_draws_the_same_and_survives_a_killed_worker(tmp_path: Path) -
 
 def test_short_jobs_travel_several_in_a_task() -> None:
     executor = cluster.DaskExecutor(
-        None, RemoteStore("memory://x"), JobLimits(), _counted=1e12, _threads=3
+        None, RemoteStore("memory://x"), JobLimits(), counted=1e12, threads=3
     )
     assert executor.free() == 6
     for pace, count in ((1.0, 1), (0.05, 5), (0.001, 32), (0.0, 32)):
-        executor._pace = pace
+        executor.pace = pace
         assert executor.free() == 6 * count
 
 

@@ -417,12 +417,12 @@ def test_upright_viewers_stack_scenes_but_not_banners(shape: tuple[int, int]) ->
 
 def test_a_scene_comes_round_again() -> None:
     player = Player(scene_show(SceneChoice("fold")), (96, 96))
-    player._clip = replace(player._clip, count=5)
+    player.clip = replace(player.clip, count=5)
     first = [player.step() for _ in range(5)]
     again = [player.step() for _ in range(5)]
     for one, other in zip(first, again, strict=True):
         assert one.panes[0].scene is other.panes[0].scene
-    pictures = islice(player.show.play(player._clip, lambda *moment: None), 5)
+    pictures = islice(player.show.play(player.clip, lambda *moment: None), 5)
     for shown, picture in zip(first, pictures, strict=True):
         parts = picture.pictures
         for pane, scene in zip(shown.panes, parts, strict=True):
