@@ -11,7 +11,9 @@ from typing import Any, Protocol
 
 from drapery.errors import OutputError
 
-WHOLE_AT_ONCE = frozenset({"s3", "s3a", "gs", "gcs", "az", "abfs", "memory"})
+BUCKETS = frozenset({"s3", "s3a", "gs", "gcs", "az", "abfs"})
+"""Targets whose first folder is a bucket, which somebody must have made."""
+WHOLE_AT_ONCE = BUCKETS | {"memory"}
 """Targets where a file appears only when it is complete."""
 
 _PART = re.compile(r"\.(.+)\.\d+\.part")
@@ -155,6 +157,22 @@ def _size(path: Path) -> int | None:
         raise OutputError(f"cannot find out whether {path} exists: {error.strerror}") from None
 
 
+def _check_bucket(url: str) -> None:
+    """Raise OutputError for a bucket that is missing: a job would be drawn before that is seen."""
+    fs, root = _file_system(url)
+    bucket = root.lstrip("/").partition("/")[0]
+    try:
+        fs.info(bucket)  # `exists` takes a server that does not answer for a missing bucket
+    except FileNotFoundError:
+        raise OutputError(
+            f"{url}: there is no bucket {bucket}; make it, or correct the address"
+        ) from None
+    except PermissionError:  # whoever may write need not be one who may list
+        pass
+    except Exception as error:
+        raise OutputError(f"{url} cannot be opened: {_why(error)}") from None
+
+
 @cache
 def _file_system(url: str) -> tuple[Any, str]:
     try:
@@ -173,8 +191,11 @@ def _file_system(url: str) -> tuple[Any, str]:
 def open_store(target: str) -> Store:
     """The store at a folder or an address with `://`. Raises OutputError."""
     if "://" in target:
-        _file_system(target.rstrip("/"))
-        return RemoteStore(target.rstrip("/"))
+        url = target.rstrip("/")
+        _file_system(url)
+        if url.partition("://")[0] in BUCKETS:
+            _check_bucket(url)
+        return RemoteStore(url)
     folder = Path(target).absolute()
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -12,7 +12,7 @@ import pytest
 from batch_works import manifest, pictures
 from pack_maker import make_pack
 
-from drapery.batch import artifacts, cluster, jobs
+from drapery.batch import artifacts, cluster, jobs, run_batch
 from drapery.batch.executor import RetryPolicy
 from drapery.batch.keys import DigestCache, code_version
 from drapery.batch.manifest import read_manifest
@@ -125,6 +125,38 @@ def test_no_bucket_is_made_where_the_address_has_a_typo(monkeypatch: pytest.Monk
     store = open_store("memory://drapery-typo/test")
     store.write("guilds/red.png", b"red")
     assert store.read("guilds/red.png") == b"red"
+
+
+class Buckets:
+    """A target with one bucket, one that may not be listed, and one that does not answer."""
+
+    def info(self, path: str) -> dict[str, str]:
+        if path == "closed":
+            raise PermissionError("Forbidden")
+        if path == "far":
+            raise TimeoutError("no answer")
+        if path != "flags":
+            raise FileNotFoundError(path)
+        return {"name": path}
+
+
+def test_a_missing_bucket_is_noticed_before_a_job_is_drawn(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+
+    def opened(url: str) -> tuple[Buckets, str]:
+        return Buckets(), url.partition("://")[2]
+
+    monkeypatch.setattr("fsspec.core.url_to_fs", opened)
+    assert open_store("gs://flags/guilds").label == "gs://flags/guilds"
+    assert open_store("gs://closed/guilds").label == "gs://closed/guilds"
+    with pytest.raises(OutputError, match=r"^gs://far/x cannot be opened: TimeoutError; check"):
+        open_store("gs://far/x")
+    rows = [{"design": "red", "size": "16x16"}]
+    missing = r"^gs://flgas/guilds: there is no bucket flgas; make it, or correct the address$"
+    with pytest.raises(OutputError, match=missing):
+        run_batch(rows, "gs://flgas/guilds", results=tmp_path / FILE, workers=1)
+    assert not (tmp_path / FILE).exists()
 
 
 def test_the_library_that_an_address_needs_is_named() -> None:
