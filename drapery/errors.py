@@ -1,12 +1,15 @@
 """Errors for users: one line with the input, the place in it and the remedy."""
 
 import shlex
+from unicodedata import category
 
 MAX_SHOWN = 48
 """The most characters of a value in a message."""
 
-_SAFE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 _-:./,#")
-"""Characters that no shell reads as more than themselves within double quotes."""
+_BARE = frozenset("_-:./")
+"""Characters beside letters and digits that no shell reads as more than themselves."""
+_IN_QUOTES = _BARE | frozenset(" ,#'()[]{}<>|&;=+*?~^@")
+"""Those that it reads so within double quotes. PowerShell parts a bare word at a comma."""
 
 
 def counted(number: float, noun: str, plural: str = "") -> str:
@@ -26,9 +29,10 @@ def shown(value: object) -> str:
 
 def quoted(word: str) -> str:
     """A word of a command for a shell; in double quotes if possible, as Windows knows no others."""
-    if word and _SAFE.issuperset(word):
-        return f'"{word}"' if {" ", "#"}.intersection(word) else word
-    return shlex.quote(word)
+    marks = {each for each in word if category(each)[0] not in "LMN"}
+    if word and marks <= _BARE:
+        return word
+    return f'"{word}"' if word and marks <= _IN_QUOTES else shlex.quote(word)
 
 
 class DraperyError(Exception):

@@ -17,6 +17,7 @@ from drapery.banner.design import Banner, Layer
 from drapery.banner.formats import parse_banner
 from drapery.banner.formats.shorthand import write
 from drapery.commands import animate, flat, model, render, web
+from drapery.errors import quoted
 from drapery.garments import find_garment
 from drapery.settings import Settings, applicable
 from drapery.studio import snippets
@@ -99,6 +100,29 @@ def test_a_pack_is_called_as_its_owner_calls_it(pack: Path, tmp_path: Path) -> N
         run(code, folder)
         assert (folder / "banner.png").read_bytes() == (tmp_path / "banner.png").read_bytes()
         (folder / "banner.png").unlink()
+
+
+@pytest.mark.parametrize(
+    ("word", "written"),
+    [
+        ("müller.png", "müller.png"),
+        ("mu\u0308ller.png", "mu\u0308ller.png"),
+        ("旗.png", "旗.png"),
+        ("it's a flag.png", '"it\'s a flag.png"'),
+        ("0,0,4", '"0,0,4"'),
+        ("a\u2019b", "'a\u2019b'"),
+        ("$HOME", "'$HOME'"),
+        ("", "''"),
+    ],
+)
+def test_a_word_is_quoted_only_where_a_shell_needs_it(word: str, written: str) -> None:
+    """In those of the docs: sh, cmd and PowerShell, for which a comma parts a bare word."""
+    assert quoted(word) == written
+
+
+@given(st.text(st.characters(exclude_characters="\0")))
+def test_a_shell_reads_the_word_that_was_quoted(word: str) -> None:
+    assert shlex.split(quoted(word)) == [word]
 
 
 def test_only_what_is_off_its_default_is_said() -> None:
