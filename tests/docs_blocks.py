@@ -56,8 +56,11 @@ TYPED = (
     *("rattler-build", "ruff"),
 )
 """What pages tell every reader to type."""
-OTHER = re.compile(r"&&|\\$|\$\(|^[^\"]*'")
-"""What cmd and PowerShell 5.1 do not know: `&&` and a backslash, and cmd single quotes."""
+OTHER = re.compile(r"&&|\\$|\$\(|^[^\"]*'|^(?:[^\"#]|\"[^\"]*\")*,")
+"""What cmd and PowerShell 5.1 do not know: `&&` and a backslash, and cmd single quotes.
+
+PowerShell makes several words of a bare one with commas.
+"""
 
 
 @dataclass(frozen=True)

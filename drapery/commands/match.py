@@ -356,8 +356,8 @@ def _corner(text: str) -> tuple[float, float]:
         x, y = map(float, text.split(","))
     except ValueError:
         raise OptionError(
-            f"--corners {text[:40]!r} is not two numbers; use such as --corners 52,21 118,30"
-            " 112,171 47,160"
+            f"--corners {text[:40]!r} is not two numbers;"
+            ' use such as --corners "52,21" "118,30" "112,171" "47,160"'
         ) from None
     return x, y
 
