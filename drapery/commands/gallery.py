@@ -20,7 +20,8 @@ _PAGE = """<!doctype html>
 <style>
   body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 84rem;
          padding: 0 1rem; color: #28282c; background: #fdfdfb; }
-  main { display: grid; gap: 2rem; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); }
+  main { display: grid; gap: 2rem; margin-top: 1rem;
+         grid-template-columns: repeat(auto-fill, minmax(min(20rem, 100%), 1fr)); }
   h2 { margin: .4rem 0 0; font-size: 1.05rem; }
   p { margin: .1rem 0; }
   img, video { width: 100%; display: block; image-rendering: pixelated; border-radius: 4px; }
