@@ -28,7 +28,7 @@ PLACES = {
 
 
 def photos() -> Image.Image:
-    """A banner before the sky with the corners that are found, and the most likely designs."""
+    """A banner before the sky, the corners that are found, and the best designs of two layers."""
     banner = Banner.parse("red straight_cross:white border:yellow")
     where = {"placement": "wall", "view": "front"}
     photo = draw(banner, **where, wind=4, size=(192, 320), background=SKY)
@@ -38,7 +38,7 @@ def photos() -> Image.Image:
     pen = ImageDraw.Draw(picture)
     for x, y in corners:
         pen.ellipse((x - 5, y - 5, x + 5, y + 5), outline="black", fill="white", width=2)
-    for number, found in enumerate(match_photo(photo.pixels[..., :3], corners)[:3]):
+    for number, found in enumerate(match_photo(photo.pixels[..., :3], corners, layers=2)):
         face = Image.fromarray(draw_face(found.banner, scale=6).pixels)
         picture.paste(face, (224 + 138 * number, 40))
     return picture
@@ -64,11 +64,11 @@ def map_markers() -> Image.Image:
 
 
 def models() -> Image.Image:
-    """Three models at four moments: a banner, a cape and a player who walks."""
+    """Three models at four moments: a banner, a cape and a player with a skirt and a scarf."""
     shown = (
         Banner.parse("white creeper:lime border:black"),
         find_garment("cape"),
-        player_of(PlayerSettings(motion="walk")),
+        player_of(PlayerSettings(skin="dancer", motion="walk", wear=("skirt", "scarf"))),
     )
     picture = Image.new("RGB", (4 * 144, 3 * 176))
     for row, each in enumerate(shown):
