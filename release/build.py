@@ -24,7 +24,7 @@ ROOT = Path(__file__).parent.parent
 MAX_WHEEL = 1_650_000
 """The most bytes of a wheel, see `size_of_sources`; its modules alone take 1 MB.
 
-Of these, docstrings that describe each parameter in a line of its own take 0.05 MB.
+With docstrings that describe each parameter in a line of its own the sources take 1.59 MB.
 """
 LEFT_OUT = ("drapery/web/", "drapery/aot/kernels-")
 NOT_SOURCES = {
