@@ -2,8 +2,8 @@
 
 `benchmarks/same_pictures.py` compares many of them before and after a change;
 `test_same_pictures.py` keeps a few. A request is data, so that its line in a file says what was
-drawn, and the same number gives the same request for ever: a new subject goes to the end of
-`SUBJECTS`, and nothing else here changes.
+drawn, and the same number gives the same request for ever, so nothing here changes. Garments and
+styles that are in none of its lists have requests of their own, `added`.
 """
 
 import hashlib
@@ -37,6 +37,15 @@ RATES = ((0.3, 10.0), (0.25, 12.5), (0.5, 8.0), (0.2, 20.0), (0.1, 29.97))
 """Lengths [s] and rates [frames/s] of loops."""
 MOTIONS = ("walk", "stand", "run", "sneak", "jump", "glide", "swim", "sit", "wave", "walk+point")
 WORN = ("scarf", "skirt", "poncho", "hood", "tabard", "dress", "coat")
+GARMENTS = (
+    *("awning", "banner", "caparison", "cape", "coat", "corners", "curtain", "drape", "dress"),
+    *("elytra", "flag", "freefall", "hammock", "hood", "leash", "pennants", "pennon", "poncho"),
+    *("sail", "scarf", "skirt", "swallow-tail", "tabard", "tent", "wall-banner"),
+)
+STYLES = (
+    *("game", "few-bends", "boards", "voxel", "low-poly", "tattered", "woven", "felt"),
+    *("embroidered", "hatched", "stained-glass", "pixel-art", "cel", "ink", "blueprint"),
+)
 MODELS = (".glb", ".obj", ".ply", ".bbmodel", ".geo.json")
 TICKS = 90
 """Time steps of live cloth."""
@@ -65,6 +74,17 @@ def requests(count: int, seed: int = 1) -> Iterator[Request]:
         yield SUBJECTS[name][0](name, random)
 
 
+def added() -> Iterator[Request]:
+    """A request of each garment and style that came after the lists here."""
+    size = {"size": (48, 64)}
+    for name in garment_names():
+        if name not in GARMENTS:
+            yield Request("garment", {"garment": name}, size)
+    for name in style_names():
+        if name not in STYLES:
+            yield Request("banner", {"design": "white creeper:lime"}, {**size, "style": [name]})
+
+
 def digest(request: Request) -> str:
     """The hash of what a request draws, or what it is refused with."""
     try:
@@ -91,7 +111,7 @@ def _cape(name: str, random: Random) -> Request:
 
 
 def _garment(name: str, random: Random) -> Request:
-    what: Options = {"garment": random.choice(garment_names())}
+    what: Options = {"garment": random.choice(GARMENTS)}
     if random.random() < 0.3:
         what |= {"seconds": 0.2, "fps": 10.0}
     if random.random() < 0.3:
@@ -155,7 +175,7 @@ LOOK: dict[str, tuple[Any, ...]] = {
     "daylight": (0.0, 0.5),
     "pixel": (2,),
     "ground": ("none", "grass", "stone"),
-    "style": tuple([name] for name in style_names()),
+    "style": tuple([name] for name in STYLES),
 }
 AIR: dict[str, tuple[Any, ...]] = {
     "wind": (0.0, 2.5, 4.0, 9.0),
