@@ -47,7 +47,9 @@ class FileFormat:
     extra: the extra that its writer needs.
     writer: the function below `drapery.render` that writes it, such as `encode.tiff.write_tiff`: of
         the path, the frames, their rate (None for a still) and the matte; `quality` where lossy.
-    reader: Pillow's name of it, for pictures that are read.
+    reader: Pillow's name of it, for pictures that are read. Uploads of the service and the studio
+        are read in it too, so its decoder must be fast: one in Python takes seconds for a million
+        pixels.
     about: what files hold, in a few words.
     """
 
