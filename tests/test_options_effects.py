@@ -15,9 +15,12 @@ from drapery.cloth import Drag
 from drapery.garments import Garment, PlayerSettings, player_of
 from drapery.option import Output, Subject
 from drapery.packs import MemoryPack, open_packs
+from drapery.scenes import live_panels, played_body
 from drapery.settings import OPTIONS
 from drapery.studio.live import Live
+from drapery.style import body_of
 from drapery.web.messages import MessageEncoder
+from drapery.web.wasm.image import Image
 
 # Cloth of a thickness of 4 on a coarse grid begins in what it hangs on.
 pytestmark = pytest.mark.filterwarnings("ignore:pins or colliders pull cloth")
@@ -213,6 +216,34 @@ def seen_live(subject: Any, options: dict[str, Any]) -> bytes:
     live = Live(subject, open_packs(settings.packs), settings)
     live.step(20)
     return b"".join(MessageEncoder(shape=(48, 64), flat=False).messages(live.shown()))
+
+
+MOVING = [n for n in OTHERS if {"motion", "wind"}.issuperset(OPTIONS[n].affects)]
+
+
+@pytest.mark.parametrize("name", ["banner", "wall", "cape"])
+def test_an_option_of_the_cloth_or_the_wind_changes_what_a_page_plays(name: str) -> None:
+    shown, idle = SHOWN[name], []
+    for option in MOVING:
+        plain = {**SMALL, **BESIDE.get(option, {}), **shown.options}
+        other = {**plain, option: OTHERS[option]}
+        changed = played(shown.subject, plain) != played(shown.subject, other)
+        if OPTIONS[option].applies(shown.words(plain), "page") and not changed:
+            idle.append(option)
+    assert idle == []
+
+
+def played(subject: Any, options: dict[str, Any]) -> tuple[str, bytes]:
+    """What a page plays: its cloths and kernels, and the arguments of these in the free wind."""
+    settings, image = Settings(**options), Image()
+    body = body_of(subject, open_packs(settings.packs), settings)
+    panels = live_panels(played_body(body, settings))
+    for panel in panels:
+        aim = panel.calls["aim"]
+        assert aim.function(*aim.arguments) == 0
+        for kernel in panel.calls.values():
+            image.add_call(kernel.arguments, {each: each for each in panel.functions})
+    return str([(panel.header, list(panel.functions)) for panel in panels]), bytes(image.data)
 
 
 def test_the_table_of_other_values_is_whole() -> None:

@@ -356,21 +356,26 @@ def _ripple_share(fabric: str | Fabric) -> float:
 
 
 def forces_of(settings: Settings, wind: Wind) -> tuple[Force, ...]:
-    """All forces on the cloth: gravity, the wind, and those that the settings add.
+    """All forces on the cloth: gravity, the wind at the cloth, and those that the settings add."""
+    lee = lee_of(settings)
+    return (Gravity(), wind if lee == 1.0 else in_lee(wind, lee), *settings.forces)
+
+
+def lee_of(settings: Settings) -> float:
+    """The share of the free wind across the cloth, along the z of its panel, that reaches it.
 
     A wall shelters its banner, unless the settings have a Wind of their own.
     """
-    if settings.placement == "wall" and not isinstance(settings.wind, Wind):
-        wind = in_lee(wind)
-    return (Gravity(), wind, *settings.forces)
+    sheltered = settings.placement == "wall" and not isinstance(settings.wind, Wind)
+    return LEE if sheltered else 1.0
 
 
 @lru_cache(maxsize=64)
-def in_lee(wind: Wind) -> Wind:
-    """The wind before a wall that faces +z; the same object for the same wind, of which a server
-    has as many as live cloths."""
+def in_lee(wind: Wind, lee: float) -> Wind:
+    """The wind of which this share across the cloth is left; the same object for the same wind, of
+    which a server has as many as live cloths."""
     x, y, z = wind.velocity
-    return replace(wind, velocity=(x, y, LEE * z))
+    return replace(wind, velocity=(x, y, lee * z))
 
 
 def drape_of(spec: ClothSpec, settings: Settings) -> Drape:

@@ -25,10 +25,10 @@ from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.soft.live_picture import draw_live, make_live_picture
 from drapery.scenes.bodies import (
-    LEE,
     STEP,
     StagedBody,
     forces_of,
+    lee_of,
     wind_of,
 )
 from drapery.scenes.recording import Schedule
@@ -213,7 +213,6 @@ def _check_played(staging: Staging) -> None:
 def _played_cloth(staged: StagedBody, panel: Panel, step: float = STEP) -> PlayedCloth:
     settings = staged.staging.settings
     wind = wind_of(settings)
-    sheltered = settings.placement == "wall" and isinstance(settings.wind, int | float)
     (rows, columns), piece = panel.piece.grid_shape, panel.piece
     return PlayedCloth(
         cloth_at_rest(panel.cloth, step),
@@ -222,7 +221,7 @@ def _played_cloth(staged: StagedBody, panel: Panel, step: float = STEP) -> Playe
         piece.shell,
         piece.thickness,
         panel.origin,
-        lee=(1.0, 1.0, LEE) if sheltered else (1.0, 1.0, 1.0),
+        lee=(1.0, 1.0, lee_of(settings)),
         header={"columns": columns, "rows": rows, "size": list(map(float, piece.size))},
     )
 
