@@ -8,7 +8,6 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import redirect_stdout
-from importlib.util import find_spec
 from io import StringIO
 from itertools import islice
 from pathlib import Path
@@ -73,18 +72,6 @@ def double() -> None:
     MovingCloth.begin(grid(4, 5, 1.0, 1.0), solver("xpbd"), collisions=met).advance((Gravity(),))
 
 
-def web() -> None:
-    """The module for pages, for which the workers would wait one after the other.
-
-    Tests that need it say where its compilers are missing.
-    """
-    if not (find_spec("ziglang") and find_spec("wasmtime")):
-        return
-    from wasm_player import built_module
-
-    built_module()
-
-
 def tests() -> None:
     """The bytecode of the test files, whose assertions pytest rewrites: half a minute, which each
     worker would take. Where some is stored already, few files need it."""
@@ -97,7 +84,6 @@ def tests() -> None:
 PARTS: dict[str, Callable[[], None]] = {
     "single": single,
     "double": double,
-    "web": web,
     "tests": tests,
 }
 

@@ -1,7 +1,7 @@
 """How `pytest` spreads the whole suite over processes; `conftest.py` has these hooks.
 
 A run of single files, or of tests chosen by name, needs no other process. `-n` says another number.
-Tests that open a page in a browser run apart, with `-m page`: they take a quarter of the time.
+Tests of pages run apart, with `-m page`: their kernels and browsers take a third of the time.
 """
 
 import os
@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from compile_kernels import compile_all
 
-BROWSERS = {"chromium", "firefox"}
-"""The fixtures of browsers; a test that takes one is marked `page`."""
+FOR_PAGES = {"chromium", "firefox", "playable"}
+"""The fixtures of browsers and of WebAssembly; a test that takes one is marked `page`."""
 PAGES = "test_studio_page"
 """The studio's tests in a browser wait for it and for a server, with deadlines: one worker runs
 them all, one after another."""
@@ -85,7 +85,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
 def pytest_report_header(config: pytest.Config) -> list[str] | None:
     if not is_whole(config):
         return None
-    lines = ["without the tests in a browser, which `pytest -m page` runs"]
+    lines = ["without the tests of pages, which `pytest -m page` runs"]
     if not config.pluginmanager.hasplugin("xdist"):
         lines.append('one by one, without pytest-xdist; `pip install -e ".[dev]"` installs it')
     return lines
@@ -102,8 +102,8 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 @pytest.hookimpl(tryfirst=True)  # before `-m` chooses
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark tests in a browser, and leave them out of a whole run; the longest files first."""
-    pages = [item for item in items if BROWSERS.intersection(getattr(item, "fixturenames", ()))]
+    """Mark tests of pages, and leave them out of a whole run; the longest files first."""
+    pages = [item for item in items if FOR_PAGES.intersection(getattr(item, "fixturenames", ()))]
     for item in pages:
         item.add_marker("page")
     if is_whole(config) and pages:

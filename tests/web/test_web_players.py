@@ -39,6 +39,7 @@ def repeating(garment: Garment, **options: Any) -> Dressed:
     return repeating_garment(garment, open_packs(()), settings)
 
 
+@pytest.mark.usefixtures("playable")
 @pytest.mark.parametrize("wear", ["cape", "elytra"])
 def test_600_steps_on_a_walking_player_have_the_bits_of_python(wear: str) -> None:
     worn = repeating(player(wear))
@@ -56,6 +57,7 @@ def test_600_steps_on_a_walking_player_have_the_bits_of_python(wear: str) -> Non
     assert np.abs(here.read("vertices").reshape(-1, 3) - places).max() < 1e-5
 
 
+@pytest.mark.usefixtures("playable")
 def test_the_legs_move_the_cape_and_the_figure_walks() -> None:
     worn = repeating(player(speed=4.0))
     free = repeating(player(speed=4.0).model_copy(update={"collisions": "none"}))
@@ -96,8 +98,8 @@ def test_garments_that_cannot_be_played_are_refused(garment: Garment, reason: st
         live_panels(played_garment(repeating(garment)))
 
 
+@pytest.mark.usefixtures("playable")
 def test_a_scene_of_a_player_names_its_textures() -> None:
-    built_module()
     garment = player("elytra")
     settings = garment.settings(solver="desbrun", size=(96, 128))
     packs = open_packs(())
@@ -112,8 +114,8 @@ def test_a_scene_of_a_player_names_its_textures() -> None:
     assert header["textures"]["cape"]["area"] == [24, 2, 10, 20]
 
 
+@pytest.mark.usefixtures("playable")
 def test_a_scene_of_a_player_has_the_cameras_and_the_light_of_python() -> None:
-    built_module()
     packs, own = open_packs(()), player().settings(solver="desbrun", size=(96, 128), view="front")
     made = (own, own.changed(view="iso", daylight=0.3))
     first, other = (unpack(gzip.decompress(scene_bytes(player(), packs, s)))[0] for s in made)
@@ -122,8 +124,8 @@ def test_a_scene_of_a_player_has_the_cameras_and_the_light_of_python() -> None:
     assert other["tints"][0] == first["daylights"][3] != first["tints"][0] == first["daylights"][10]
 
 
+@pytest.mark.usefixtures("playable")
 def test_a_page_of_a_player_is_one_small_file() -> None:
-    built_module()
     settings = player().settings(solver="desbrun", size=(96, 128), time=0.0)
     text = page_text(player(), settings)
     assert len(text) < 300_000

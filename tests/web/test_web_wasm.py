@@ -28,12 +28,13 @@ from drapery.web.wasm import build
 from drapery.web.wasm.module import module_info, smallest_module
 from drapery.web.wasm.plan import LANES, kernels_of, plans_of, split_plan, write_plan
 
+pytestmark = pytest.mark.usefixtures("playable")
+
 NODE = shutil.which("node")
 SCRIPT = Path(__file__).parents[2] / "drapery" / "web" / "wasm" / "cloth.js"
 
 
 def plan_of(settings: Settings) -> bytes:
-    built_module()
     (plan,) = plans_of(played_body(white_banner(settings), settings))
     return plan
 
