@@ -233,11 +233,12 @@ def _is_imported(module: str, effect: str) -> bool:
     return True
 
 
-def call_by_address(result: type, example: tuple[Any, ...]) -> Any:
+def call_by_address(result: type | None, example: tuple[Any, ...] | None = None) -> Any:
     """A function (address, arguments) that kernels call; see `address_of`.
 
     What a kernel calls so is compiled once, not again as part of each of its callers.
-    result: int. example: arguments; those of a call must be of the same types.
+    result: int or None. example: arguments; those of a call must be of the same types. Without it
+    a call may have arguments of any types, and its address must be of code for these.
     """
 
     def make() -> Any:
@@ -245,7 +246,8 @@ def call_by_address(result: type, example: tuple[Any, ...]) -> Any:
 
         return address_caller(result, example)
 
-    return NumbaName(make, result, pack(example).types, ImportedByNumba("drapery.jit_calls"))
+    types = None if example is None else pack(example).types
+    return NumbaName(make, result, types, ImportedByNumba("drapery.jit_calls"))
 
 
 def address_of(function: Any, example: tuple[Any, ...]) -> int:

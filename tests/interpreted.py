@@ -11,21 +11,43 @@ from typing import Any
 import numpy as np
 
 from drapery import jit
+from drapery.aot.arguments import pack
 
-_at_address: list[Callable[..., Any]] = []
+_at_address: list[tuple[Callable[..., Any], list[str]]] = []
+"""The functions that are called by address, and the types for which each is compiled."""
+_called: set[int] = set()
 
 
 def _as_it_is(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+def _types(arguments: tuple[Any, ...]) -> list[str]:
+    """The types that compiled kernels see: numbers of NumPy are those of Python."""
+    plain = {"|b1": "bool", "<i4": "int64", "<i8": "int64", "<f8": "float64"}
+    return [plain.get(kind, kind) for kind in pack(arguments).types]
+
+
 def _address_of(function: Callable[..., Any], example: tuple[Any, ...]) -> int:
-    _at_address.append(function)
+    _at_address.append((function, _types(example)))
     return len(_at_address) - 1
 
 
-def _call_by_address(result: type, example: tuple[Any, ...]) -> Callable[..., Any]:
-    return lambda address, arguments: _at_address[address](*arguments)
+def _call_by_address(
+    result: type | None, example: tuple[Any, ...] | None = None
+) -> Callable[..., Any]:
+    """A call whose first arguments are of the types of the example: code for others would read
+    wrong memory. Raises TypeError."""
+
+    def call(address: Any, arguments: tuple[Any, ...]) -> Any:
+        function, wanted = _at_address[address]
+        if address not in _called:
+            _called.add(address)
+            if (types := _types(arguments)) != wanted:
+                raise TypeError(f"{function.__name__} is compiled for {wanted}, not for {types}")
+        return function(*arguments)
+
+    return call
 
 
 def _lane_count(array: Any) -> int:

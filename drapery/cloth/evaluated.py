@@ -12,11 +12,12 @@ from drapery.cloth.lanes import from_lanes
 from drapery.cloth.solvers.base import check_state
 from drapery.cloth.solvers.driver import (
     SolverState,
-    add_loads,
+    add_winds,
     batch_of,
-    blow_all,
+    blow,
     body_of,
     cast_all,
+    fall,
 )
 from drapery.cloth.state import State
 from drapery.mesh import Array
@@ -49,8 +50,9 @@ def accelerations(forces: Sequence[Force], cloth: Cloth, state: State) -> Vector
     wind = np.zeros((rows * batch.gusts.seeds.size, lanes), dtype)
     work = np.zeros((WORK_ROWS, lanes), dtype)
     gained = np.zeros_like(batch.x)
-    blow_all(wind, batch.x, body, batch, 0, state.time, work)
-    add_loads(gained, batch.x, batch.v, body, batch, wind, dtype.type(1), 0, work)
+    blow(wind, batch.x, body.controls, batch.gusts, 0, state.time, work)
+    add_winds(gained, batch.x, batch.v, body, wind, batch.gusts, dtype.type(1))
+    fall(gained, body.inv_mass, batch.numbers, batch.push, dtype.type(1), 0)
     free = (cloth.inv_mass > 0)[:, None]
     moved: Array = from_lanes(gained, len(state.positions)) - loads.drag * free * state.velocities
     return moved.astype(dtype)

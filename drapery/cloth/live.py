@@ -133,7 +133,7 @@ def live_call(
     loads = lower_forces([*others, wind], moving.cloth, 1)
     steps = motion.first + motion.period
     given = moving.cloth, state, solver_state, loads, steps, motion.pins, 1, moving.boxes
-    made = with_addresses(batch_of(*given))
+    made = with_addresses(batch_of(*given), solver_state)
     blown = make_live_wind(moving.cloth, free, lee, motion.airflow, loads.gravity, motion.carried)
     batch = _narrowed(made, lanes or made.x.shape[1], blown)
     return LiveCall(_controls(moving, batch, motion), blown, plan, batch, solver_state.substeps)
@@ -226,6 +226,9 @@ def play(live: Any, plan: Any, batch: Any, substeps: Any) -> Any:
             batch.squares,
             batch.strains,
             batch.limit_strain,
+            batch.blow,
+            batch.add_winds,
+            batch.meet_lanes,
         )
         step_plan(plan, here, substeps)
         for row in range(batch.x.shape[0]):

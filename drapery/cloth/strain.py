@@ -19,7 +19,6 @@ warning say how far.
 """
 
 import math
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,7 +30,7 @@ from drapery.cloth.contact.geometry import put
 from drapery.cloth.order import across_then_outwards, pin_distances
 from drapery.cloth.sheets import SheetLayout
 from drapery.cloth.simd import fill, lane_count, load, maximum, store
-from drapery.jit import address_of, call_by_address, entry_point, kernel
+from drapery.jit import call_by_address, entry_point, kernel
 from drapery.mesh import Array
 
 MOST_STRETCH = 1.15
@@ -262,9 +261,3 @@ def limit_strain(x0: Array, x: Array, limit: StrainLimit) -> int:
 
 EXAMPLE = (np.zeros((0, 3)), np.zeros((0, 3)), NEVER)
 call_limit = call_by_address(int, EXAMPLE)
-
-
-@cache
-def limit_address() -> int:
-    """Where `limit_strain` is in memory."""
-    return address_of(limit_strain, EXAMPLE)

@@ -12,8 +12,7 @@ import numpy as np
 
 from drapery.arrays import Vectors
 from drapery.banner.design import MAX_LAYERS
-from drapery.cloth import Force, MovingCloth, Wind, strain
-from drapery.cloth.contact import lanes_contact
+from drapery.cloth import Force, MovingCloth, Wind
 from drapery.cloth.live import (
     STILL,
     LiveMotion,
@@ -21,6 +20,7 @@ from drapery.cloth.live import (
     play as play_cloth,  # what is called `play` here is a scene
 )
 from drapery.cloth.live_wind import aim
+from drapery.cloth.solvers.driver import functions_of
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.soft.live_picture import draw_live, make_live_picture
@@ -259,10 +259,7 @@ def _live_panel(cloth: PlayedCloth, staging: Staging, lanes: int | None) -> Live
             **{name: getattr(batch.gusts, name) for name in ("seeds", "phases", "turns")},
             **{name: getattr(shell, name) for name in ("vertices", "normals", "light")},
         },
-        {
-            "resolve": (lanes_contact.resolve, lanes_contact.EXAMPLE),
-            "limit_strain": (strain.limit_strain, strain.EXAMPLE),
-        },
+        functions_of(batch, cloth.moving.solver_state),
     )
 
 

@@ -7,7 +7,6 @@ is limited (see `drapery.cloth.strain`), and the next step starts from there. Th
 `resolve` by its address, so it is compiled once for all of them.
 """
 
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -43,7 +42,7 @@ from drapery.cloth.strain import (
     plane_is_long,
     shorten_long,
 )
-from drapery.jit import address_of, call_by_address, entry_point, kernel
+from drapery.jit import call_by_address, entry_point, kernel
 from drapery.mesh import Array
 
 ROUNDING = 2.0**-22
@@ -187,12 +186,6 @@ EXAMPLE = (contact_work(NO_CONTACT), NO_CONTACT, NOT_ITSELF, NEVER, 0)
 _resolve_at = call_by_address(int, EXAMPLE)
 
 
-@cache
-def resolve_address() -> int:
-    """Where `resolve` is in memory."""
-    return address_of(resolve, EXAMPLE)
-
-
 @kernel
 def meets_itself(batch: Any) -> bool:
     """Whether contact of each cloth with itself is resolved."""
@@ -228,12 +221,12 @@ def keep_lanes(before: Any, y: Any, u: Any) -> None:
     load_lanes(before[rows : 2 * rows], u, 0)
 
 
-@kernel
+@entry_point
 def meet_lanes(
     y: Any, u: Any, before: Any, batch: Any, start: Any, when: Any, dt: Any, careful: Any
 ) -> Any:
-    """Resolve the contacts of a block y, u [3N, L] that moved for dt [s]; returns whether the whole
-    step shall be made again, with more contacts. Then y and u are at its start again.
+    """Resolve the contacts of a block y, u [3N, L] that moved for dt [s]; returns 1 if the whole
+    step shall be made again, with more contacts, else 0. Then y and u are at its start again.
 
     before: see `begin_lanes`. when: see `place_boxes`. careful: the step is not made again, since
     that is being done, in lanes with a 1, or since it has no substeps.
@@ -246,7 +239,7 @@ def meet_lanes(
             for cloth in range(first, min(first + lanes, batch.cloths - start)):
                 if long[0, cloth - first] > 0:
                     limit_lane(y, u, batch, start, cloth, dt)
-        return False
+        return 0
     place_boxes(batch, when)
     for first in range(0, min(y.shape[1], batch.cloths - start), lanes):
         if not meets_itself(batch):
@@ -270,7 +263,7 @@ def meet_lanes(
                 before[3 * rows + row, lane] = u[row, lane]
                 y[row, lane] = before[row, lane]
                 u[row, lane] = before[rows + row, lane]
-        return True
+        return 1
     if careful and when[2] == 1.0:
         for row in range(rows):
             for lane in range(y.shape[1]):
@@ -278,7 +271,15 @@ def meet_lanes(
                     y[row, lane] = before[2 * rows + row, lane]
                     u[row, lane] = before[3 * rows + row, lane]
     keep_lanes(before, y, u)
-    return False
+    return 0
+
+
+_meet_lanes_at = call_by_address(int)
+
+
+def meeting_example(y: Array, batch: Any) -> tuple[Any, ...]:
+    """Arguments of `meet_lanes` of the types of those that `meet_substep` gives it."""
+    return y, y, y, batch, 0, (0, 0.0, 1.0), 0.0, True
 
 
 @kernel
@@ -297,8 +298,10 @@ def meet_substep(
     if any are due: at the end of a step, and in between where it is made again. Returns the number
     of the next substep, and whether its step is being made again."""
     passed, when, careful = contact_due(turn, substeps, again)
-    if passed > 0 and meet_lanes(y, u, before, batch, start, when, h * passed, careful):
-        return turn // substeps * substeps, True
+    if passed > 0:
+        given = y, u, before, batch, start, when, np.float64(h * passed), careful
+        if _meet_lanes_at(batch.meet_lanes, given) == 1:
+            return turn // substeps * substeps, True
     return turn + 1, again and (turn + 1) % substeps > 0
 
 

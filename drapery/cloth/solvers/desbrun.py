@@ -44,11 +44,15 @@ from drapery.cloth.sheets import (
 )
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
+    SHARED,
     ClothBody,
     KernelSolver,
     SolverState,
+    add_winds_at,
+    blow_at,
     body_of,
     check_common,
+    wind_lanes,
 )
 from drapery.cloth.spin import Correction, NoSpin, Spin, spin_correction
 from drapery.cloth.strain import allowed_stretch, plane_squares, strain_limit
@@ -114,7 +118,7 @@ class SolverDesbrun(KernelSolver):
         attachments = stretch_limits(cloth, self.limit, self.sweeps)
         spin = spin_correction(cloth, h, self.angular)
         plan = DesbrunPlan(body_of(cloth), cloth_filter(cloth, h), attachments, spin)
-        return SolverState(plan, dt, substeps, _advance, limit=limit)
+        return SolverState(plan, dt, substeps, _advance, limit=limit, shares=SHARED)
 
 
 def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> DesbrunSheetPlan:
@@ -142,9 +146,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     both = simd.empty_lanes(2 * rows, width, batch.x).reshape((2, rows, width))
     old = simd.empty_lanes(rows, width, batch.x)
     g, mean = both[1], simd.empty_lanes(3, width, batch.x)
-    winds = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
-    wind = simd.empty_lanes(winds, width, batch.x)
-    work = simd.empty_lanes(18, width, batch.x)
+    wind, work = wind_lanes(batch, body, width)
     for block in range(first, last, width):
         # The last block overlaps the one before, so all blocks have the same width.
         start = min(block, last - width)
@@ -160,9 +162,8 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.bend(both[0], y, u, body.stencils, dt, dtype.type(0), body.damping[0])
             kernels.filter_velocities(both, plan.filter, body.pins)
             kernels.restore_angular_momentum(g, y, u, plan.spin, work)
-            for number in range(batch.gusts.seeds.size):
-                kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
-                kernels.add_wind_velocities(g, y, u, body, wind, batch.gusts, number, dt)
+            blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
+            add_winds_at(batch.add_winds, (g, y, u, body, wind, batch.gusts, dt))
             kernels.add_uniform(g, mean, body.inv_mass, batch.numbers, batch.push, start)
             kernels.move(y, g, old, dt)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)

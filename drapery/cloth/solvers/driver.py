@@ -11,30 +11,38 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drapery.arrays import Floats
-from drapery.cloth import kernels, lanes, simd
+from drapery.cloth import kernels, lanes, simd, strain
 from drapery.cloth.bending import Stencils, fastest_bending, force_stencils
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
+from drapery.cloth.contact import lanes_contact
 from drapery.cloth.contact.box_data import NO_CONTACT, BoxColliders, BoxContact
-from drapery.cloth.contact.lanes_contact import ContactWork, contact_work, resolve_address
+from drapery.cloth.contact.lanes_contact import ContactWork, contact_work
 from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
 from drapery.cloth.faces import Faces, wind_faces
 from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_forces
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import all_finite, check_state, check_step
 from drapery.cloth.state import State
-from drapery.cloth.strain import HELD_TO, NEVER, StrainLimit, limit_address
+from drapery.cloth.strain import HELD_TO, NEVER, StrainLimit, limit_strain
 from drapery.cloth.wind import Gusts
 from drapery.errors import OptionError, counted
-from drapery.jit import called_next, entry_point, kernel
+from drapery.jit import address_of, call_by_address, called_next, entry_point, kernel
 from drapery.mesh import Array
 
 MAX_SUBSTEPS = MAX_SWEEPS = MAX_THREADS = 1000
+WINDS = "blow", "add_winds"
+SHARED = *WINDS, "meet_lanes"
+"""Functions that most kernels call by address, so that each is compiled once for all of them."""
 MAX_SWING = 0.3
 """Phase [radians] of the fastest spring's oscillation in a substep. Symplectic methods are stable
 up to 2; the limit on stretch, with one or two sweeps a substep, needs smaller substeps."""
 MAX_DECAY = 0.5
 """Part of a velocity that damping removes in a substep; up to 2 is stable."""
+
+
+Shared = tuple[Callable[..., Any], tuple[Any, ...]]
+"""A function that kernels call by address, and an example of its arguments."""
 
 
 class Springs(NamedTuple):
@@ -73,8 +81,9 @@ class Batch(NamedTuple):
     often: see `SolverState`. cloths: their number, B.
     limit: the longest springs, see `drapery.cloth.strain`. squares: of their lengths [m²], [1, S];
         for a plane of lanes see `plane_squares`. strains: the longest spring of each cloth over its
-        limit, in steps in which that was not held; 0 where it was, [B]. limit_strain: address of
-        the function.
+        limit, in steps in which that was not held; 0 where it was, [B].
+    limit_strain, blow, add_winds, meet_lanes: addresses of these functions; 0 for those that the
+        kernel does not call.
     width: lanes of a block.
     residuals: for a solver that iterates, the largest residual of each cloth over its tolerance;
         0 where every solve reached the tolerance, [B].
@@ -101,6 +110,9 @@ class Batch(NamedTuple):
     squares: Array
     strains: Array
     limit_strain: int
+    blow: int
+    add_winds: int
+    meet_lanes: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +130,9 @@ class SolverState:
         only so.
     limit: see `Batch`.
     squares: of a plane of lanes, shape [2, S], see `plane_squares`.
+    shares: the functions that the kernel calls by address, see `functions_of`.
     by_type: the plan in each floating-point type, made when it is used.
+    addresses: those of these functions, found when they are used.
     """
 
     plan: Any
@@ -130,7 +144,9 @@ class SolverState:
     often: bool = False
     limit: StrainLimit = NEVER
     squares: Floats = field(default_factory=lambda: np.zeros((2, 0)))
+    shares: tuple[str, ...] = ()
     by_type: dict[Any, Any] = field(default_factory=dict)
+    addresses: dict[Any, dict[str, Any]] = field(default_factory=dict)
 
     def of(self, dtype: Any) -> Any:
         if dtype not in self.by_type:
@@ -225,7 +241,7 @@ def _advance(
     batch = batch_of(cloth, state, solver_state, loads, steps, pins, threads, boxes)
     rest = steps, solver_state.substeps, *solver_state.options
     with called_next(solver_state.kernel, (0, 1, plan, batch, *rest)):
-        batch = with_addresses(batch)
+        batch = with_addresses(batch, solver_state)
 
     def work(first: int, last: int) -> None:
         mine = batch._replace(work=contact_work(batch.contact, len(cloth.inv_mass)))
@@ -294,15 +310,39 @@ def batch_of(
         squares.astype(dtype),
         np.zeros(x.shape[1]),
         0,
+        0,
+        0,
+        0,
     )
 
 
-def with_addresses(batch: Batch) -> Batch:
-    """The batch with the address of the function that limits strain, and of the one that resolves
-    contacts, if it has any. The two may be compiled for it."""
-    batch = batch._replace(limit_strain=limit_address())
+def with_addresses(batch: Batch, solver_state: SolverState) -> Batch:
+    """The batch with the addresses of the functions that its kernel calls, which may be compiled
+    for it."""
+    dtype, addresses = batch.x.dtype, solver_state.addresses
     meets = len(batch.contact.halves) > 0 or len(batch.itself.triangles) > 0
-    return batch._replace(resolve=resolve_address()) if meets else batch
+    if (dtype, meets) not in addresses:
+        found = functions_of(batch, solver_state)
+        if not meets:
+            del found["resolve"]
+        addresses[dtype, meets] = {name: address_of(*each) for name, each in found.items()}
+    return batch._replace(**addresses[dtype, meets])
+
+
+def functions_of(batch: Batch, solver_state: SolverState) -> dict[str, Shared]:
+    """The functions whose addresses are in a batch, by the name of the field, each with arguments
+    of the types of those that kernels give it."""
+    plan, y = solver_state.of(batch.x.dtype), np.zeros((1, 1), batch.x.dtype)
+    found: dict[str, Shared] = {
+        "limit_strain": (limit_strain, strain.EXAMPLE),
+        "resolve": (lanes_contact.resolve, lanes_contact.EXAMPLE),
+    }
+    if "blow" in solver_state.shares:
+        found["blow"] = blow, (y, y, plan.body.controls, batch.gusts, 0, 0.0, y)
+        found["add_winds"] = add_winds, (y, y, y, plan.body, y, batch.gusts, y.dtype.type(0))
+    if "meet_lanes" in solver_state.shares:
+        found["meet_lanes"] = lanes_contact.meet_lanes, lanes_contact.meeting_example(y, batch)
+    return found
 
 
 def _box_poses(boxes: BoxColliders | None, time: float, dt: float, steps: int) -> Array:
@@ -372,27 +412,43 @@ def check_limit(limit: float) -> None:
 
 
 @entry_point
-def blow_all(wind: Any, y: Any, body: Any, batch: Any, start: Any, time: Any, work: Any) -> None:
+def blow(wind: Any, y: Any, controls: Any, gusts: Any, start: Any, time: Any, work: Any) -> None:
     """All winds W at the control particles C, and the phases of K waves, into [W (3C + 2K), L]."""
-    rows = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
-    for number in range(batch.gusts.seeds.size):
+    rows = 3 * controls.size + 2 * gusts.rates.shape[1]
+    for number in range(gusts.seeds.size):
         out = wind[number * rows : (number + 1) * rows]
-        kernels.blow(out, y, body.controls, batch.gusts, number, start, time, work)
+        kernels.blow(out, y, controls, gusts, number, start, time, work)
 
 
 @entry_point
-def add_loads(
-    g: Any, y: Any, u: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any, work: Any
-) -> None:
-    """g += h · acceleration by winds, gravity, pushes and drag, at places y and velocities u."""
-    rows = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
-    for number in range(batch.gusts.seeds.size):
+def add_winds(g: Any, y: Any, u: Any, body: Any, wind: Any, gusts: Any, h: Any) -> None:
+    """g += h · acceleration by winds, see `blow`, at places y and velocities u."""
+    rows = 3 * body.controls.size + 2 * gusts.rates.shape[1]
+    for number in range(gusts.seeds.size):
         here = wind[number * rows : (number + 1) * rows]
-        kernels.add_wind_velocities(g, y, u, body, here, batch.gusts, number, h)
-    fall(g, body.inv_mass, batch.numbers, batch.push, h, start)
+        kernels.add_wind_velocities(g, y, u, body, here, gusts, number, h)
+
+
+blow_at = call_by_address(None)
+add_winds_at = call_by_address(None)
 
 
 @kernel
+def wind_lanes(batch: Any, body: Any, width: Any) -> Any:
+    """Lanes for all winds, and the scratch that `blow` needs."""
+    rows = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
+    wind = simd.empty_lanes(rows * batch.gusts.seeds.size, width, batch.x)
+    return wind, simd.empty_lanes(18, width, batch.x)
+
+
+@kernel
+def add_loads(g: Any, y: Any, u: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any) -> None:
+    """g += h · acceleration by winds, gravity, pushes and drag, at places y and velocities u."""
+    add_winds_at(batch.add_winds, (g, y, u, body, wind, batch.gusts, h))
+    fall(g, body.inv_mass, batch.numbers, batch.push, h, start)
+
+
+@entry_point
 def fall(g: Any, inv_mass: Any, numbers: Any, push: Any, h: Any, start: Any) -> None:
     """g += h (gravity + push), then implicit drag: the speed of a fall tends to g / drag."""
     F = g.dtype.type
@@ -409,14 +465,12 @@ def fall(g: Any, inv_mass: Any, numbers: Any, push: Any, h: Any, start: Any) -> 
 
 
 @kernel
-def kick(
-    u: Any, y: Any, g: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any, work: Any
-) -> None:
+def kick(u: Any, y: Any, g: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any) -> None:
     """u += h · acceleration by springs and loads; g is overwritten."""
     kernels.load_lanes(g, u, 0)
     kernels.add_spring_velocities(g, y, body.springs, body.inv_mass, h)
     kernels.bend(g, y, u, body.stencils, h, g.dtype.type(0), body.damping[0])
-    add_loads(g, y, u, body, batch, wind, h, start, work)
+    add_loads(g, y, u, body, batch, wind, h, start)
     kernels.load_lanes(u, g, 0)
 
 
@@ -426,11 +480,10 @@ def load_block(batch: Any, body: Any, start: Any, last: Any) -> Any:
     rows, width = batch.x.shape[0], min(batch.width, last - start)
     y, u = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
     g, old = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
-    winds = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
-    wind = simd.empty_lanes(winds * batch.gusts.seeds.size, width, batch.x)
+    wind, work = wind_lanes(batch, body, width)
     kernels.load_lanes(y, batch.x, start)
     kernels.load_lanes(u, batch.v, start)
-    return y, u, g, old, wind, simd.empty_lanes(18, width, batch.x)
+    return y, u, g, old, wind, work
 
 
 @kernel

@@ -29,11 +29,12 @@ from drapery.cloth.simd import fill, lane_count, load, maximum, sqrt, store
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
+    SHARED,
     ClothBody,
     KernelSolver,
     SolverState,
     add_loads,
-    blow_all,
+    blow_at,
     body_of,
     check_common,
     load_block,
@@ -110,7 +111,7 @@ class SolverImplicit(KernelSolver):
         plan = ImplicitPlan(body_of(cloth), bends, attachments, mass, np.array([self.damping]))
         options = self.iterations, self.tolerance
         limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
-        return SolverState(plan, dt, self.substeps, _advance, options, limit=limit)
+        return SolverState(plan, dt, self.substeps, _advance, options, limit=limit, shares=SHARED)
 
     def warn_unsolved(self, residual: float) -> None:
         warnings.warn(
@@ -370,9 +371,9 @@ def _advance(
         while step < steps * substeps:
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
-                blow_all(wind, y, body, batch, start, time, work)
+                blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
             kernels.load_lanes(g, u, 0)
-            add_loads(g, y, u, body, batch, wind, h, start, work)
+            add_loads(g, y, u, body, batch, wind, h, start)
             for row in range(rows):
                 for lane in range(lanes):
                     b[row, lane] = plan.mass[row // 3] * (g[row, lane] - u[row, lane])

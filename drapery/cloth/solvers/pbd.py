@@ -30,11 +30,12 @@ from drapery.cloth.simd import fill, lane_count, load, maximum, minimum, sqrt
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
+    SHARED,
     ClothBody,
     KernelSolver,
     SolverState,
     add_loads,
-    blow_all,
+    blow_at,
     body_of,
     check_common,
     load_block,
@@ -160,7 +161,7 @@ class SolverPBD(KernelSolver):
         )
         limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
         options = self.passes, self.sweeps
-        return SolverState(plan, dt, self.substeps, _advance, options, limit=limit)
+        return SolverState(plan, dt, self.substeps, _advance, options, limit=limit, shares=SHARED)
 
     def _constraints(self, cloth: Cloth) -> PBDConstraints:
         stiffness = np.asarray(self.stiffness, float)[cloth.spring_kind]
@@ -293,12 +294,12 @@ def _advance(
         while step < steps * substeps:
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
-                blow_all(wind, y, body, batch, start, time, work)
+                blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
             kernels.load_lanes(g, u, 0)
             damp(g, plan.keep[0])
             bend_time, damping = plan.bending_step.time[0], plan.bending_step.damping[0]
             kernels.bend(g, y, u, body.stencils, bend_time, dtype.type(0), damping)
-            add_loads(g, y, u, body, batch, wind, h, start, work)
+            add_loads(g, y, u, body, batch, wind, h, start)
             kernels.move(y, g, old, h)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             for _ in range(passes):

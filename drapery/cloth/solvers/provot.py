@@ -18,10 +18,11 @@ from drapery.cloth.cloth import FLEXION, Cloth
 from drapery.cloth.contact import lanes_contact
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
+    SHARED,
     ClothBody,
     KernelSolver,
     SolverState,
-    blow_all,
+    blow_at,
     body_of,
     check_common,
     chosen_substeps,
@@ -65,7 +66,7 @@ class SolverProvot(KernelSolver):
         plan = ProvotPlan(body_of(cloth), listed_attachments(cloth, self.limit))
         substeps = chosen_substeps(self.substeps, cloth, dt)
         limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
-        return SolverState(plan, dt, substeps, _advance, (self.sweeps,), limit=limit)
+        return SolverState(plan, dt, substeps, _advance, (self.sweeps,), limit=limit, shares=SHARED)
 
 
 def listed_attachments(cloth: Cloth, limit: float) -> Attachments:
@@ -90,8 +91,8 @@ def _advance(
         while step < steps * substeps:
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
-                blow_all(wind, y, body, batch, start, time, work)
-            kick(u, y, g, body, batch, wind, h, start, work)
+                blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
+            kick(u, y, g, body, batch, wind, h, start)
             kernels.move(y, u, old, h)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             for _ in range(sweeps):

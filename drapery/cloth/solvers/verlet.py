@@ -25,10 +25,11 @@ from drapery.cloth.kernels import add, direction
 from drapery.cloth.simd import fill, lane_count, maximum, sqrt
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
+    SHARED,
     ClothBody,
     KernelSolver,
     SolverState,
-    blow_all,
+    blow_at,
     body_of,
     check_common,
     chosen_substeps,
@@ -76,7 +77,7 @@ class SolverVerlet(KernelSolver):
         plan = VerletPlan(body_of(cloth), half_attachments(cloth, self.limit, self.relaxation))
         substeps = chosen_substeps(self.substeps, cloth, dt)
         limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
-        return SolverState(plan, dt, substeps, _advance, (self.sweeps,), limit=limit)
+        return SolverState(plan, dt, substeps, _advance, (self.sweeps,), limit=limit, shares=SHARED)
 
 
 def half_attachments(cloth: Cloth, limit: float, relaxation: float) -> Attachments:
@@ -127,14 +128,14 @@ def _advance(
         while step < steps * substeps:
             if step % substeps == 0:
                 time = batch.numbers[2] + step * batch.numbers[0]
-                blow_all(wind, y, body, batch, start, time, work)
-            kick(u, y, g, body, batch, wind, half, start, work)
+                blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
+            kick(u, y, g, body, batch, wind, half, start)
             kernels.move(y, u, old, h)
             kernels.place_pins(y, old, body.pins, batch.targets, step, start)
             for _ in range(sweeps):
                 shorten_together(y, plan.attachments, g)
             kernels.set_velocities(u, y, old, h)
-            kick(u, y, g, body, batch, wind, half, start, work)
+            kick(u, y, g, body, batch, wind, half, start)
             step, again = lanes_contact.meet_substep(
                 y, u, before, batch, start, step, substeps, h, again
             )

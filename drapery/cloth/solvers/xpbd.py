@@ -56,11 +56,15 @@ from drapery.cloth.simd import fill, lane_count, load, maximum, store
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     MAX_SUBSTEPS,
+    WINDS,
     ClothBody,
     KernelSolver,
     SolverState,
+    add_winds_at,
+    blow_at,
     body_of,
     check_stepping,
+    wind_lanes,
 )
 from drapery.cloth.strain import MOST_STRETCH, plane_squares, strain_limit
 from drapery.jit import entry_point, kernel
@@ -175,7 +179,7 @@ class SolverXPBD(KernelSolver):
                 squares=plane_squares(fine.sheet, limit),
             )
         plan = XPBDPlan(body_of(cloth), constraints, *turns, attachments)
-        return SolverState(plan, dt, substeps, _advance, often=often, limit=limit)
+        return SolverState(plan, dt, substeps, _advance, often=often, limit=limit, shares=WINDS)
 
     def _compliances(self, cloth: Cloth) -> Array:
         own = 1 / np.maximum(cloth.spring_stiffness, 1e-12)
@@ -389,9 +393,7 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
     rows, width = batch.x.shape[0], min(batch.width, last - first)
     y, u = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
     old = simd.empty_lanes(rows, width, batch.x)
-    winds = 3 * body.controls.size + 2 * batch.gusts.rates.shape[1]
-    wind = simd.empty_lanes(winds, width, batch.x)
-    work = simd.empty_lanes(18, width, batch.x)
+    wind, work = wind_lanes(batch, body, width)
     for block in range(first, last, width):
         # The last block overlaps the one before, so all blocks have the same width.
         start = min(block, last - width)
@@ -403,9 +405,8 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
         step, careful = 0, always
         while step < steps:
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
-            for number in range(batch.gusts.seeds.size):
-                kernels.blow(wind, y, body.controls, batch.gusts, number, start, time, work)
-                kernels.add_wind_velocities(u, y, u, body, wind, batch.gusts, number, dt)
+            blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
+            add_winds_at(batch.add_winds, (u, y, u, body, wind, batch.gusts, dt))
             add_pushes(u, body.inv_mass, batch.numbers, batch.push, dt, start)
             for substep in range(substeps):
                 # After contact the cloth moves on more slowly than contact moved it.
@@ -430,7 +431,8 @@ def _advance(first: int, last: int, plan: Any, batch: Any, steps: int, substeps:
             kernels.set_velocities(u, y, old, h)
             when = step, (substeps - 1) / substeps if careful else 0.0, 1.0
             moved = h if careful else dt
-            again = lanes_contact.meet_lanes(y, u, before, batch, start, when, moved, careful)
+            met = lanes_contact.meet_lanes(y, u, before, batch, start, when, moved, careful)
+            again = met == 1
             careful = again or always
             step += not again
         kernels.store_lanes(batch.new_x, y, start)
@@ -492,7 +494,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 if careful and substep + 1 < substeps:
                     sheet_kernels.set_velocities(u, y, old, h, sheet)
                     when = step, substep / substeps, (substep + 1) / substeps
-                    lanes_contact.meet_plane(y, u, before, batch, cloth, when, h, sheet, 1)
+                    lanes_contact.meet_plane(y, u, before, batch, cloth, when, h, sheet, True)
             sheet_kernels.set_velocities(u, y, old, h, sheet)
             if plan.limits.a.size > 0:
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)
