@@ -1,24 +1,19 @@
-"""The studio under use: `python -m benchmarks.studio session`, `viewers` or `first`.
+"""The studio under use: `python -m benchmarks.studio session` or `first`.
 
 `session` does random things on the page in Chromium (`--minutes 30 --seed 1`). Each action must
 leave no error in the browser's console, no traceback in the server's log, and a design that only
 actions on designs change, and that Undo brings back. It prints what failed; then it exits with 1.
-
-`viewers` opens tabs with live cloth (`--count 20 --seconds 10`) and prints the frames/s that each
-gets, and how much of a processor core the server and all viewers take.
 
 `first` opens the page in Chromium again and again (`--count 10`) and prints the time from the
 address to a picture of cloth that has moved. Kernels, files and the browser's cache are warm.
 """
 
 import argparse
-import os
 import random
 import statistics
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
@@ -44,7 +39,6 @@ from studio_browser import (
     resize,
     wait_until,
 )
-from studio_tabs import open_tab
 
 from benchmarks.quick import add_quick, needs
 from drapery.banner import PATTERN_NAMES, write_banner
@@ -257,7 +251,7 @@ def _viewer(visitor: Visitor) -> str:
     kind = visitor.random.randrange(3)
     if kind == 0:
         return visitor.pick(".live-bar button")
-    canvas = visitor.find(".viewer-canvas")[0]
+    canvas = visitor.find(".viewer-host")[0]
     if kind == 1:
         canvas.send_keys(visitor.random.choice("wasdqe +-"))
         return "keys"
@@ -372,48 +366,6 @@ def session(minutes: float, seed: int) -> int:
     return faults
 
 
-def processor_time(process: int | str) -> float:
-    """The processor time that a process has taken so far [s]."""
-    numbers = Path(f"/proc/{process}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
-    return (int(numbers[11]) + int(numbers[12])) / os.sysconf("SC_CLK_TCK")
-
-
-def viewers(count: int, seconds: float) -> None:
-    """Tabs whose viewers draw each frame at once; prints frames/s and processor time."""
-    with tempfile.TemporaryDirectory() as folder, ExitStack() as stack:
-        studio = Studio(Path(folder))
-        stack.callback(studio.stop)
-        sockets = [stack.enter_context(open_tab(studio.address))[1] for _ in range(count)]
-        frames, stop = [0] * count, threading.Event()
-
-        def watch(number: int) -> None:
-            with suppress(Exception):
-                sockets[number].send('{"drawn": 2}')
-                while not stop.is_set():
-                    if isinstance(sockets[number].recv(10), bytes):
-                        frames[number] += 1
-                        sockets[number].send('{"drawn": 1}')
-
-        threads = [threading.Thread(target=watch, args=(n,), daemon=True) for n in range(count)]
-        for thread in threads:
-            thread.start()
-        time.sleep(5)  # until all cloths move
-        before, start = [*frames], time.monotonic()
-        used = processor_time(studio.process.pid), processor_time("self")
-        time.sleep(seconds)
-        taken = time.monotonic() - start
-        server = processor_time(studio.process.pid) - used[0]
-        client = processor_time("self") - used[1]
-        rates = [(now - then) / taken for now, then in zip(frames, before, strict=True)]
-        stop.set()
-        for thread in threads:
-            thread.join(15)
-    total = sum(rates) * taken
-    print(f"{count} viewers: {min(rates):.1f} to {max(rates):.1f} frames/s each")
-    print(f"server: {server / taken:.2f} cores, {1000 * server / max(total, 1):.2f} ms a frame")
-    print(f"viewers: {client / taken:.2f} cores")
-
-
 def first(count: int) -> None:
     """Opens the page and prints the time until its cloth waves."""
     with tempfile.TemporaryDirectory() as name, ExitStack() as stack:
@@ -440,25 +392,18 @@ def main(words: Sequence[str] | None = None) -> int:
     one = commands.add_parser("session")
     one.add_argument("--minutes", type=float, default=30)
     one.add_argument("--seed", type=int, default=1)
-    one = commands.add_parser("viewers")
-    one.add_argument("--count", type=int, default=20)
-    one.add_argument("--seconds", type=float, default=10)
     one = commands.add_parser("first")
     one.add_argument("--count", type=int, default=10)
     given = parser.parse_args(words)
     needs(CHROMIUM and DRIVER, "Chromium or its driver")
     if given.quick:
         first(1)
-        viewers(1, 0.5)
         return 1 if session(0.02, 1) else 0
     if given.command is None:
-        parser.error("name one of: session, viewers, first")
+        parser.error("name one of: session, first")
     if given.command == "session":
         return 1 if session(given.minutes, given.seed) else 0
-    if given.command == "first":
-        first(given.count)
-    else:
-        viewers(given.count, given.seconds)
+    first(given.count)
     return 0
 
 

@@ -17,9 +17,9 @@ Effect: TypeAlias = Literal[
 ]
 """What an option changes: how the cloth moves, the wind, what stands where, textures and materials,
 the moment of animated textures, the camera, the light, or the pixels and frames of a file."""
-Output: TypeAlias = Literal["still", "loop", "model", "page", "live", "face", "link"]
-"""What is made: a picture, an animation, a 3-D file, a page of live cloth, the studio's live view,
-a face without cloth, or the address of a design in the studio."""
+Output: TypeAlias = Literal["still", "loop", "model", "page", "face", "link"]
+"""What is made: a picture, an animation, a 3-D file, a page of live cloth, a face without cloth, or
+the address of a design in the studio."""
 
 
 class Subject(NamedTuple):
@@ -60,7 +60,6 @@ _CALLED = {
     "still": "a still picture",
     "model": "a 3-D file",
     "page": "a page of live cloth",
-    "live": "the live view",
 }
 """How messages name the words of subjects, and outputs."""
 _REMEDIES = dict.fromkeys(("garment", "player"), "set it in the garment's file")

@@ -278,7 +278,7 @@ class Settings:
         "Let the camera go once around the subject in the time of an animation",
         audience="anyone",
         affects=("camera",),
-        not_for=("still", "page", "live", "model"),
+        not_for=("still", "page", "model"),
     )
     size: tuple[int, int] = _option(
         (512, 512),
@@ -289,7 +289,6 @@ class Settings:
         parts=("width", "height"),
         audience="anyone",
         affects=("camera", "file"),
-        not_for=("live",),
     )
     grid: tuple[int, int] = _option(
         (16, 31),
@@ -385,7 +384,7 @@ class Settings:
         unit="s",
         audience="anyone",
         affects=("motion", "animation"),
-        not_for=("loop", "live"),
+        not_for=("loop",),
     )
     seed: int = _option(
         0,
@@ -433,7 +432,7 @@ class Settings:
         affects=("surface",),
         not_for=(
             *("shield", "elytra", "vanilla", "item"),
-            *("page", "live", "model", "face", "link"),
+            *("page", "model", "face", "link"),
         ),
         resolve=_finish_of,
     )
@@ -480,7 +479,7 @@ class Settings:
         bounds=(1, MAX_PIXEL),
         unit="pixels",
         affects=("file",),
-        not_for=("page", "live"),
+        not_for=("page",),
     )
     light: Lighting = _option(
         None,
@@ -525,7 +524,7 @@ class Settings:
         "Renderer: auto, soft, pyrender, or one of an installed package",
         takes=callable,
         affects=("file",),
-        not_for=("page", "live", "link"),
+        not_for=("page", "link"),
     )
     given: frozenset[str] = field(default=frozenset(), compare=False, repr=False, kw_only=True)
 
@@ -698,7 +697,7 @@ LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
             unit="s",
             audience="anyone",
             affects=("motion", "file"),
-            not_for=("still", "page", "live"),
+            not_for=("still", "page"),
             remedy=_AS_LOOP,
         ),
         "fps": Option(
@@ -710,7 +709,7 @@ LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
             unit="frames/s",
             audience="anyone",
             affects=("motion", "file"),
-            not_for=("still", "page", "live"),
+            not_for=("still", "page"),
             remedy=_AS_LOOP,
         ),
     }

@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 import pytest
 from compile_kernels import single
 from tracing import untraced_environment
+from wasm_player import built_module
 
 from drapery import Banner, draw
 
@@ -111,6 +112,7 @@ class Studio:
 def compiled_kernels() -> None:
     """Fill the kernel cache, so that no deadline of a page's test includes a compiler's time."""
     single()
+    built_module()
     draw(Banner.parse("red creeper:lime"), view="hero", shadow=True, wind=4.0)
 
 

@@ -97,7 +97,6 @@ KNOWS_NO_SETTINGS = {"cloth", "banner", "packs", "render", "assets"}
 SHARED = {
     *("drapery.pictures", "drapery.render.contact", "drapery.render.doctor"),
     *("drapery.render.drawlist", "drapery.render.encode", "drapery.render.encode.quick_png"),
-    "drapery.render.identity_cache",
     *(f"drapery.{name}" for name in FOUNDATION),
 }
 """Modules that are not public, whose names our applications may import."""

@@ -17,9 +17,7 @@ from drapery.option import Output, Subject
 from drapery.packs import MemoryPack, open_packs
 from drapery.scenes import live_panels, played_body
 from drapery.settings import OPTIONS
-from drapery.studio.live import Live
 from drapery.style import body_of
-from drapery.web.messages import MessageEncoder
 from drapery.web.wasm.image import Image
 
 # Cloth of a thickness of 4 on a coarse grid begins in what it hangs on.
@@ -185,37 +183,6 @@ def fault(shown: Shown, option: str, output: Output, folder: Path) -> str | None
         fits = str(error) == said or option in ("facing", "rotation", "turntable", "ground")
         return None if fits else f"{option} is refused as: {error}"
     return None if first != second else f"{option} does nothing"
-
-
-LIVE = [
-    name
-    for name, shown in SHOWN.items()
-    if not isinstance(shown.subject, Garment) and shown.options.get("placement") != "item"
-]
-"""An item lies still in its slot."""
-
-
-@pytest.mark.parametrize("name", LIVE)
-def test_an_option_changes_the_live_view_only_where_it_applies(name: str) -> None:
-    shown = SHOWN[name]
-    wrong = []
-    for option in OTHERS.keys() - shown.same - {"style"}:
-        plain = {**SMALL, **BESIDE.get(option, {}), **shown.options}
-        other = {**plain, option: shown.others.get(option, OTHERS[option])}
-        try:
-            differ = seen_live(shown.subject, plain) != seen_live(shown.subject, other)
-        except OptionError:  # of a facing or rotation that fits no placement
-            continue
-        if differ is not OPTIONS[option].applies(shown.words(plain), "live"):
-            wrong.append(option)
-    assert wrong == []
-
-
-def seen_live(subject: Any, options: dict[str, Any]) -> bytes:
-    settings = Settings(**options)
-    live = Live(subject, open_packs(settings.packs), settings)
-    live.step(20)
-    return b"".join(MessageEncoder(shape=(48, 64), flat=False).messages(live.shown()))
 
 
 MOVING = [n for n in OTHERS if {"motion", "wind"}.issuperset(OPTIONS[n].affects)]

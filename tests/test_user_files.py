@@ -174,7 +174,7 @@ OPENED_ELSEWHERE = {
     *("studio/design_catalogue.py", "studio/icons.py", "studio/page.py", "studio/translation.py"),
     # files that the program itself has written
     *("batch/jobs.py", "batch/stores.py", "batch/worker.py", "serve/app.py"),
-    *("studio/garment_store.py", "studio/panels/library.py"),
+    *("studio/garment_store.py", "studio/panels/library.py", "studio/viewport.py"),
 }
 """Modules that open files otherwise, none of which a user names."""
 

@@ -255,6 +255,7 @@ def _live_panel(cloth: PlayedCloth, staging: Staging, lanes: int | None) -> Live
         {
             **{name: getattr(live, name) for name in ("clock", "grab", "target")},
             **{name: getattr(live, name) for name in ("positions", "velocities")},
+            **{name: getattr(batch, name) for name in ("x", "v")},  # by which another cloth goes on
             "wind": blown.velocity,
             **{name: getattr(batch.gusts, name) for name in ("seeds", "phases", "turns")},
             **{name: getattr(shell, name) for name in ("vertices", "normals", "light")},

@@ -11,8 +11,9 @@ from fastapi import FastAPI
 from nicegui import app as nicegui_app, core, ui
 
 from drapery import OutputError
-from drapery.studio import page, routes, stream
+from drapery.studio import page, routes
 from drapery.studio.guard import LOOPBACK, Guard
+from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.session import Sessions, StudioConfig
 
 RECONNECT = 2.0
@@ -29,6 +30,7 @@ def make_app(
 ) -> Guard:
     """The studio as an ASGI application. One per process: its page framework is global."""
     sessions = Sessions(studio)
+    building = KernelBuild(sessions)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -36,6 +38,7 @@ def make_app(
         pruning = asyncio.create_task(prune_regularly(sessions, PRUNE_INTERVAL))
         yield
         pruning.cancel()
+        await building.stop()
         sessions.close_all()
 
     app = FastAPI(
@@ -46,8 +49,7 @@ def make_app(
         redirect_slashes=False,  # a redirect would lead to whatever host the request names
     )
     nicegui_app.router.redirect_slashes = False
-    routes.add_routes(app, sessions)
-    stream.add_routes(app, sessions)
+    routes.add_routes(app, sessions, building)
     page.add_page(sessions)
     ui.run_with(
         app,
@@ -92,8 +94,6 @@ def run(
         ws_max_size=1 << 20,
         timeout_graceful_shutdown=1,
         server_header=False,
-        # Compression hardly shortens positions of a moving cloth, and takes longer than sending.
-        ws_per_message_deflate=False,
     )
     listening = _listen(host, port)
     reached = reachable(host)

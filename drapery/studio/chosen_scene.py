@@ -7,7 +7,6 @@ from drapery import Banner, Settings
 from drapery.banner import write_banner
 from drapery.scenes import SceneEntry, find_scene
 from drapery.settings import MAX_WIND
-from drapery.studio.wind_controls import wind_controls_of
 
 DESIGN_PARAMETERS = frozenset({"design", "middle"})
 """The parameters of scenes that are designs; `middle` is one of three."""
@@ -30,7 +29,7 @@ def scene_choice(name: str, banner: Banner | None, settings: Settings) -> SceneC
         if parameter in DESIGN_PARAMETERS and banner is not None:
             words[parameter] = write_banner(replace(banner, kind="banner"), "shorthand")
         elif parameter in WIND_PARAMETERS:
-            words[parameter] = f"{min(wind_controls_of(settings).speed, MAX_WIND):g}"
+            words[parameter] = f"{min(settings.wind_speed, MAX_WIND):g}"
     return SceneChoice(name, tuple(words.items()))
 
 

@@ -20,10 +20,9 @@ LOG = logging.getLogger(__name__)
 
 Event = (
     Literal["sketch", "settings", "packs", "scene", "preview", "recent", "library"]
-    | Literal["selection", "steered", "read"]
+    | Literal["selection", "read"]
 )
-"""`selection`: what is chosen, or the design. `steered`: the wind by keys, or a fault of the live
-cloth. `read`: a text or a file, of which designs come."""
+"""`selection`: what is chosen, or the design. `read`: a text or a file, of which designs come."""
 
 
 class Document:

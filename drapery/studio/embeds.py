@@ -9,7 +9,7 @@ from drapery.banner import alt_text, write_banner
 from drapery.settings import NAMED_OPTIONS
 from drapery.studio.share import options_of
 from drapery.studio.snippets import plain
-from drapery.studio.wind_controls import wind_controls_of
+from drapery.studio.wind_heading import heading_of
 
 
 @dataclass(frozen=True)
@@ -50,12 +50,11 @@ def picture_tag(places: EmbedPlaces, banner: Banner, settings: Settings) -> str:
 
 def component_tag(places: EmbedPlaces, banner: Banner, settings: Settings) -> str:
     """The design as `<drapery-banner>`, and the line that loads the component."""
-    wind = wind_controls_of(settings)
     attributes = {
         "design": write_banner(banner, "shorthand"),
         "kind": "wall" if settings.placement == "wall" else "standing",
-        "wind": plain(round(wind.speed, 1)),
-        "direction": plain(round(wind.heading, 1)),
+        "wind": plain(round(settings.wind_speed, 1)),
+        "direction": plain(round(heading_of(settings), 1)),
         "alt": alt_text(banner),
     }
     words = " ".join(f'{name}="{escape(value)}"' for name, value in attributes.items())

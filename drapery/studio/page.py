@@ -11,6 +11,7 @@ from nicegui import Client, ui
 
 from drapery import DraperyError, Settings
 from drapery.banner import parse_banner
+from drapery.studio.components import viewer_address
 from drapery.studio.descriptions import described
 from drapery.studio.notices import show_notice
 from drapery.studio.panels import bar, shortcuts
@@ -18,8 +19,10 @@ from drapery.studio.session import Session, Sessions
 from drapery.studio.share import opened_link, write_link
 from drapery.studio.sketch import Sketch, sketch_of
 from drapery.studio.translation import language, translated
+from drapery.studio.viewport import module_address
 from drapery.studio.warning_log import collected_warnings
 from drapery.studio.widgets import on, translated_text
+from drapery.web.wasm.module import is_module_built
 
 Place = Literal["left", "viewport", "under", "side"]
 
@@ -164,6 +167,10 @@ def _head(session: Session) -> None:
     for sheet in sorted(_FOLDER.glob("*.css")):
         ui.add_head_html(f"<style>{sheet.read_text()}</style>")
     ui.add_head_html(f'<script type="module">{(_FOLDER / "studio.js").read_text()}</script>')
+    # What plays the cloth comes beside the page's framework, not after it.
+    ui.add_head_html(f'<link rel="modulepreload" href="{viewer_address()}">')
+    if is_module_built():
+        ui.add_head_html(f'<link rel="preload" as="fetch" crossorigin href="{module_address()}">')
 
 
 def _panels(session: Session, place: str) -> None:

@@ -3,34 +3,44 @@
 Every address holds the token of an open session; no part of an address is a file's path.
 """
 
+import gzip
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Annotated, Literal
 from urllib.parse import quote
 
 from fastapi import FastAPI, HTTPException, Query, Request, Response
-from fastapi.responses import FileResponse, JSONResponse
+from fastapi.responses import FileResponse, JSONResponse, PlainTextResponse
 from starlette.requests import ClientDisconnect
 
-from drapery import DesignError, DraperyError
+from drapery import DesignError, DraperyError, OptionError
 from drapery.banner import parse_banner
 from drapery.file_formats import KIND_NAMES, format_of
 from drapery.packs import Packs, open_packs
 from drapery.studio.art import face_png, pattern_rows, pattern_sheet, style_png
+from drapery.studio.components import viewer_module
+from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import banner_of
+from drapery.studio.translation import translated
 from drapery.studio.uploads import PURPOSES, shown_bytes, shown_name
 from drapery.styles import style_names
+from drapery.web.wasm.module import is_module_built, read_module
 
 CACHING = "private, max-age=3600"
 """The addresses of pictures change whenever their content does."""
+
+RENDERED = "A picture by the renderer, which cannot be turned or pulled."
 
 Text = Annotated[str, Query(max_length=4000)]
 Scale = Annotated[int, Query(ge=1, le=8)]
 
 
-def add_routes(app: FastAPI, sessions: Sessions) -> None:
-    """Serve the open sessions; an unknown token gets status 404."""
+def add_routes(app: FastAPI, sessions: Sessions, building: KernelBuild) -> None:
+    """Serve the open sessions; an unknown token gets status 404.
+
+    building: what makes the module of kernels where there is none.
+    """
 
     def session_of(token: str) -> Session:
         session = sessions.find(token)
@@ -39,6 +49,8 @@ def add_routes(app: FastAPI, sessions: Sessions) -> None:
         return session
 
     _add_pictures(app, session_of)
+    _add_live(app, session_of)
+    _add_player(app, building)
     _add_downloads(app, session_of)
     _add_uploads(app, session_of)
 
@@ -83,6 +95,57 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
             return style_png(banner, session.packs(), name, lambda: not session.closed)
 
         return _picture(session, draw)
+
+
+def _add_live(app: FastAPI, session_of: SessionOf) -> None:
+    """What the viewer plays, and pictures of what cannot be played."""
+
+    @app.get("/live/{token}/{key}.bin")
+    def scene(token: str, key: str) -> Response:
+        session = session_of(token)
+        if not session.viewport.shows(key):
+            return Response(status_code=204)
+        try:
+            return _compressed(session.viewport.scene(key), "application/octet-stream")
+        except OptionError:  # it is not the user's fault
+            return PlainTextResponse(translated(RENDERED, session.language), 422)
+        except DraperyError as error:
+            return _not_shown(session, error)
+
+    @app.get("/live/{token}/{key}.{ending}")
+    def picture(token: str, key: str, ending: Literal["png", "webp"]) -> Response:
+        session = session_of(token)
+        if not session.viewport.shows(key):
+            return Response(status_code=204)
+        try:
+            data = session.viewport.picture(key)
+        except DraperyError as error:
+            return _not_shown(session, error)
+        return Response(data, media_type=f"image/{ending}", headers={"Cache-Control": CACHING})
+
+
+def _add_player(app: FastAPI, building: KernelBuild) -> None:
+    """What plays the scenes: the module of kernels, and that of the viewer."""
+
+    @app.get("/cloth.wasm")
+    async def kernels() -> Response:
+        if not is_module_built():
+            return PlainTextResponse(await building.start(), 422)
+        return _compressed(gzip.compress(read_module(), mtime=0), "application/wasm")
+
+    @app.get("/viewer.js")
+    def viewer() -> Response:
+        return _compressed(gzip.compress(viewer_module().encode(), mtime=0), "text/javascript")
+
+
+def _compressed(data: bytes, kind: str) -> Response:
+    headers = {"Cache-Control": CACHING, "Content-Encoding": "gzip"}
+    return Response(data, media_type=kind, headers=headers)
+
+
+def _not_shown(session: Session, error: DraperyError) -> Response:
+    line = translated(session.pack_store.with_names(str(error)), session.language)
+    return PlainTextResponse(line, 422)
 
 
 def _picture(session: Session, draw: Callable[[], bytes]) -> Response:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drapery import DesignError, Settings
-from drapery.studio.document import Document
+from drapery.studio.document import Document, Event
 from drapery.studio.exports import Exports, ExportSlots
 from drapery.studio.garment_store import GarmentStore
 from drapery.studio.kept_work import KeptWork, Work
@@ -149,6 +149,11 @@ class Sessions:
     def find(self, token: str) -> Session | None:
         """The open session with this token, or None."""
         return self._open.get(token)
+
+    def notify(self, event: Event) -> None:
+        """Call the listeners of an event in all sessions."""
+        for session in [*self._open.values()]:
+            session.notify(event)
 
     def keep(self, session: Session) -> None:
         """End the session of a page that is gone; keep its work if it has any."""

@@ -45,7 +45,7 @@ FILE_OPTIONS: Mapping[str, Option] = {
         bounds=(1, 256),
         unit="pixels",
         affects=("surface",),
-        not_for=("still", "loop", "model", "page", "live"),
+        not_for=("still", "loop", "model", "page"),
     ),
 }
 """The options of all files: of pictures, of animations, and `--scale` of `drapery flat`."""

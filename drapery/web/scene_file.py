@@ -1,7 +1,6 @@
 """The file from which the component draws: a scene at its start, and the plans of its cloth.
 
-It is one message (see `messages`), compressed with gzip: the fields and arrays of a `scene` and of
-its first `moment`, and
+It is one message (see `messages`), compressed with gzip: what `scene_message` gives, and
 
 aspect: width / height of the picture that the camera frames. sheets: the names of the sheets of
 texels of what shows the design, in the order of its layers ("" is the bare one), None where no
@@ -35,7 +34,7 @@ from drapery.garments import Garment
 from drapery.mesh import Array, Mesh
 from drapery.option import Subject
 from drapery.packs import Packs
-from drapery.render import VIEWS, Camera, Material, TextureLayer, frame_view
+from drapery.render import VIEWS, Camera, Material, Scene, TextureLayer, frame_view
 from drapery.scenes import (
     Dressed,
     LiveBody,
@@ -52,8 +51,7 @@ from drapery.scenes import (
 from drapery.settings import FabricName, Settings, settled
 from drapery.style import Body, MaterialAt, body_of
 from drapery.styles import Style
-from drapery.web.messages import MessageEncoder, pack, unpack
-from drapery.web.panes import Pane, ViewerState
+from drapery.web.messages import pack, scene_message, unpack
 from drapery.web.wasm.module import module_info, read_module
 from drapery.web.wasm.plan import LANES, kernels_of, plans_of, write_plan
 
@@ -150,7 +148,7 @@ def _body_scene(
     styled = staging.style.has("material")  # its steps need all layers of one design
     shown, sheets = (body, None) if styled or not design else _with_sheets(body, packs, patterns)
     settings = staging.settings
-    scene = _first_message(_state(live, shown), settings)
+    scene = _first_message(*_start(live, shown), settings)
     points, aspect = staging.framed(_framed(live)), settings.size[0] / settings.size[1]
     views = {name: astuple(frame_view(name, points, aspect)) for name in VIEWS}
     flag = scene[0]["runs"][-len(body.panels or body.parts)][0]
@@ -171,9 +169,8 @@ def _garment_scene(
     worn = repeating_garment(garment, packs, settings)
     first, cloths = first_scene(worn), len(worn.cloths)
     last, figures = len(first.models) - cloths, len(worn.figures())
-    grip = frozenset(range(last, len(first.models)))
-    pane = Pane(first, lambda aspect: first.camera)
-    scene = _first_message(ViewerState((pane,), grip=grip, live=True), staging.settings)
+    grip = range(last, len(first.models))
+    scene = _first_message(first, grip, staging.settings)
     header, arrays = scene
     header.update(sheets=None, turned=staging.settings.turned)
     header["views"] = {name: astuple(_seen(worn, name)) for name in VIEWS}
@@ -194,15 +191,11 @@ def _garment_scene(
     return scene, played_garment(worn)
 
 
-def _first_message(state: ViewerState, settings: Settings) -> _Message:
-    """The scene and its first moment as one header and arrays."""
-    encoder = MessageEncoder(shape=settings.size, flat=False)
-    scene, moment = map(unpack, encoder.messages(state))
-    aspect = settings.size[0] / settings.size[1]
-    cloths = enumerate(scene[0]["grip"])
-    moving = [[number, *run, "vertices", "light"] for number, run in cloths]
-    header = {**moment[0], **scene[0], "aspect": aspect, "moving": moving}
-    return header, {**scene[1], **moment[1]}
+def _first_message(scene: Scene, cloths: range, settings: Settings) -> _Message:
+    """The scene at its start, and what moves in it."""
+    header, arrays = scene_message(scene, cloths)
+    moving = [[n, *run, "vertices", "light"] for n, run in enumerate(header["grip"])]
+    return {**header, "aspect": settings.size[0] / settings.size[1], "moving": moving}, arrays
 
 
 def _packed(scene: _Message, plans: Sequence[bytes]) -> bytes:
@@ -266,17 +259,16 @@ def _with_sheets(body: Body, packs: Packs, patterns: Sequence[str]) -> tuple[Bod
     return replace(body, panels=tuple(panels)), names
 
 
-def _state(live: LiveBody, shown: Body) -> ViewerState:
+def _start(live: LiveBody, shown: Body) -> tuple[Scene, range]:
+    """The scene at its start, and the numbers of the models that are cloth."""
     staging, meshes = live.staging, live.meshes()
     models = live.models(meshes, 0.0, shown)
     shadow = None
     if staging.settings.shadow:
         shadow = staging.contact(models, floor_under(meshes))
-    framing = partial(staging.camera, _framed(live))
-    scene = staging.scene(models, framing(1.0), shadow)
+    scene = staging.scene(models, staging.camera(_framed(live), staging.aspect), shadow)
     last = len(scene.models)
-    grip = frozenset(range(last - len(live.body.panels), last))
-    return ViewerState((Pane(scene, framing),), grip=grip, live=True)
+    return scene, range(last - len(live.body.panels), last)
 
 
 def _framed(live: LiveBody) -> list[Array]:

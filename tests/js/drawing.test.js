@@ -13,12 +13,13 @@ function recording() {
   return { found, gl: new Proxy(calls, { get: (own, name) => own[name] ?? (() => null) }) };
 }
 
-test("a pane with an opaque background does not hide the next one", () => {
+test("a scene with an opaque background does not hide the next one", () => {
   const { found, gl } = recording();
-  const drawing = Object.assign(Object.create(Drawing.prototype), { gl });
-  const pane = { solid: [0, 1, 2], blend: [], start: 0 };
   const [left, right] = [[0, 0, 8, 8], [8, 0, 8, 8]];
-  drawing.drawPane({ ...pane, background: [0, 0, 0, 255] }, left, [], []);
-  drawing.drawPane({ ...pane, background: [0, 0, 0, 0] }, right, [], []);
+  for (const [rect, alpha] of [[left, 255], [right, 0]]) {
+    const scene = { header: { background: [0, 0, 0, alpha] } };
+    const drawing = Object.assign(Object.create(Drawing.prototype), { gl, scene, solid: [0, 1, 2], blend: [] });
+    drawing.draw(rect, [], []);
+  }
   assert.deepEqual(found.drawn, [left, right]);
 });

@@ -10,7 +10,7 @@ test("a player that cannot be drawn is told once and does not stop the others", 
   const player = (name, act) => ({
     canvas: { width: 10, height: 20, getContext: () => ({ drawImage: () => found.copied.push(name) }) },
     fit: () => true,
-    drawPanes: act,
+    drawInto: act,
   });
   const fault = new Error("no scene");
   const broken = player("broken", () => {

@@ -57,7 +57,7 @@ def test_tabs_leave_nothing(own_studio: Studio) -> None:
     studio = own_studio
 
     def cycle() -> str:
-        with open_tab(studio.address) as (token, _):
+        with open_tab(studio.address) as token:
             assert status(studio, token) == 200
             send(studio, token)
             assert list(studio.folder.glob("drapery-studio-*"))
@@ -93,7 +93,7 @@ def test_a_busy_page_is_not_gone(studio: Studio) -> None:
 
 def test_a_stopped_studio_leaves_no_files(tmp_path: Path) -> None:
     studio = Studio(tmp_path)
-    with open_tab(studio.address) as (token, _):
+    with open_tab(studio.address) as token:
         send(studio, token)
         assert list(tmp_path.glob("drapery-studio-*"))
         studio.stop()

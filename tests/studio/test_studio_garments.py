@@ -53,7 +53,7 @@ def test_a_file_is_found_by_its_path_until_another_is_sent(session: Session) -> 
     assert find_garment(path).name == "my-shawl"
     assert session.garment_store.title == "My Shawl.toml: A shawl"
     session.viewport.update(garment=path)
-    assert session.viewport.note == "The garment my-shawl is getting ready."
+    assert session.viewport.shown["note"] == "The garment my-shawl is getting ready."
     other = session.garment_store.adopt(send(session, SHAWL, "..toml"))
     assert other != path and str(session.garment_store.path) == other
 

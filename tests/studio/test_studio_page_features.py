@@ -88,7 +88,7 @@ def test_what_other_pages_need_follows_the_design(page: Any) -> None:
 
 def test_a_skin_dropped_on_the_live_view_becomes_a_player(page: Any) -> None:
     skin = png_bytes(np.full((64, 64, 4), 200, np.uint8))
-    drop(page, "me.png", skin, ".live-view canvas")
+    drop(page, "me.png", skin, ".live-view")
     command = "drapery player --skin me.png --head white -o banner.png"
     wait_until(lambda: value(page, "as-command").startswith(command))
 

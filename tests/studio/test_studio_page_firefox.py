@@ -39,8 +39,8 @@ def is_now(page: Firefox, design: str) -> None:
 
 def positions(page: Firefox) -> np.ndarray:
     """Where the vertices of the live cloth are, shape [3 V]."""
-    viewer = "document.querySelector('.viewer').viewer"
-    return np.asarray(page.ask(f"[...({viewer}?.drawing?.scene?.positions ?? [])]"))
+    player = "document.querySelector('.viewer').viewer?.players[0]"
+    return np.asarray(page.ask(f"[...({player}?.drawing.scene.positions ?? [])]"))
 
 
 def test_a_banner_is_designed_waves_and_becomes_a_file(page: Firefox) -> None:

@@ -202,7 +202,7 @@ def test_a_pattern_of_a_pack(page: Any, tmp_path: Path) -> None:
 
 
 def test_a_cape_on_a_skin(page: Any) -> None:
-    drop(page, "me.png", png(noise(5)), ".live-view canvas")
+    drop(page, "me.png", png(noise(5)), ".live-view")
     wait_until(lambda: "me.png" in value(page, "as-command"))
     fill(page, "Garment", "cape")
     wait_until(lambda: "cape" in value(page, "as-command"))
@@ -246,7 +246,7 @@ def test_packs_are_compared(page: Any, tmp_path: Path) -> None:
     find(page, ".versus-slider input").send_keys(*[Keys.ARROW_LEFT] * 10)
     cut = "return document.querySelector('.versus-slider').style.getPropertyValue('--cut')"
     assert page.execute_script(cut) == "40%"
-    wait_until(lambda: "soft.zip" in text(page, ".viewer-labels"))
+    wait_until(lambda: "soft.zip" in text(page, ".viewer-host"))
 
 
 def test_a_design_is_shared(page: Any) -> None:

@@ -4,7 +4,6 @@ import base64
 import io
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +14,11 @@ from selenium.webdriver import ActionChains, Keys
 from selenium.webdriver.common.by import By
 from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
 
-from drapery.banner.design import Banner
-from drapery.pictures import draw
+from drapery.banner import Banner
+from drapery.packs import open_packs
+from drapery.scenes import LiveBody
 from drapery.settings import Settings
-from drapery.studio.share import write_link
-from drapery.studio.sketch import sketch_of
+from drapery.style import body_of
 
 WRITTEN = (
     "const text = document.getElementById('written').value; return /pattern/.test(text) && text"
@@ -31,7 +30,7 @@ VIEWER = "document.querySelector('.viewer').viewer"
 def page(chromium: Any, studio: Studio) -> Any:
     resize(chromium, WIDE, moves=True)
     open_page(chromium, studio)
-    wait_until(lambda: ask(chromium, "drawing?.scene?.light[0] > 0"))
+    wait_until(lambda: ask(chromium, "time > 0"))
     return chromium
 
 
@@ -43,7 +42,7 @@ def ask(page: Any, what: str) -> Any:
 def positions(page: Any) -> np.ndarray:
     """Where all vertices are in the browser, shape [V, 3]."""
     text = page.execute_script(
-        f"const bytes = new Uint8Array({VIEWER}.drawing.scene.positions.slice().buffer);"
+        f"const bytes = new Uint8Array({VIEWER}.players[0].drawing.scene.positions.slice().buffer);"
         " let text = ''; for (const byte of bytes) text += String.fromCharCode(byte);"
         " return btoa(text)"
     )
@@ -51,7 +50,7 @@ def positions(page: Any) -> np.ndarray:
 
 
 def canvas(page: Any) -> Any:
-    return page.find_element(By.CSS_SELECTOR, ".viewer-canvas")
+    return page.find_element(By.CSS_SELECTOR, ".viewer-host")
 
 
 def frame_rate(page: Any) -> int:
@@ -62,7 +61,9 @@ def frame_rate(page: Any) -> int:
 
 def picture(page: Any) -> np.ndarray:
     """The canvas's pixels, shape [H, W, 4]."""
-    url = ask(page, "snapshot()")
+    url = page.execute_script(
+        f"const [player] = {VIEWER}.players; player.draw(); return player.canvas.toDataURL()"
+    )
     return np.asarray(Image.open(io.BytesIO(base64.b64decode(url.partition(",")[2]))))
 
 
@@ -96,15 +97,16 @@ def test_it_stands_still_for_a_user_who_prefers_that(chromium: Any, studio: Stud
     wait_until(lambda: pause.get_attribute("aria-pressed") == "true")
     pause.click()
     wait_until(lambda: pause.get_attribute("aria-pressed") == "false")
+    wait_until(lambda: ask(chromium, "players.length"))
     before = positions(chromium)
     wait_until(lambda: np.abs(positions(chromium) - before).max() > 0.02)
 
 
 def test_keys_steer_the_wind(page: Any) -> None:
     canvas(page).send_keys("")
-    heading = ask(page, "wind")[1]
-    hold(page, "a", lambda: abs(ask(page, "wind")[1] - heading) > 30)
-    hold(page, "e", lambda: ask(page, "wind")[0] > 5)
+    heading = ask(page, "wind.heading")
+    hold(page, "a", lambda: abs(ask(page, "wind.heading") - heading) > 30)
+    hold(page, "e", lambda: ask(page, "wind.speed") > 5)
     speed = page.find_element(By.CSS_SELECTOR, "#panel-motion .option-value")
     wait_until(lambda: float(speed.text.split()[0]) > 5)
     page.execute_script("document.activeElement.blur()")
@@ -127,9 +129,9 @@ def test_a_point_of_the_cloth_follows_the_mouse(page: Any) -> None:
     wait_until(lambda: shows(page, "no wind"))
     page.find_element(By.CSS_SELECTOR, '[aria-label="Back to rest"]').click()
     wait_until(lambda: ask(page, "time") < 0.5)
-    x, y = seen_at(page, flag(page)[np.argmax(flag(page) @ [1, -1, 0])])
-    free = (x + 60, y - 90)  # beside the flag, where nothing hangs
-    assert gap(page, free) > 0.15
+    corner = np.argmax(flag(page) @ [1, -1, 0])
+    before = flag(page)[corner]
+    x, y = seen_at(page, before)
     hand = ActionChains(page)
     hand.move_to_element_with_offset(canvas(page), *from_middle(page, (x - 8, y - 8)))
     hand.click_and_hold()
@@ -137,10 +139,11 @@ def test_a_point_of_the_cloth_follows_the_mouse(page: Any) -> None:
         hand.move_by_offset(17, -20)
     hand.perform()
     assert ask(page, "input.pulling") is True
-    wait_until(lambda: gap(page, free) < 0.06)
+    wait_until(lambda: np.linalg.norm(flag(page)[corner] - before) > 0.15)
+    pulled = flag(page)[corner]
     ActionChains(page).release().perform()
     assert ask(page, "input.pulling") is False
-    wait_until(lambda: gap(page, free) > 0.1)
+    wait_until(lambda: np.linalg.norm(flag(page)[corner] - pulled) > 0.1)
 
 
 def test_the_background_is_walked_round(page: Any) -> None:
@@ -155,13 +158,13 @@ def test_the_background_is_walked_round(page: Any) -> None:
 
 
 def flag(page: Any) -> np.ndarray:
-    first, count = ask(page, "drawing.scene.header.grip")[0]
+    first, count = ask(page, "players[0].header.grip")[0]
     return positions(page)[first : first + count]
 
 
 def seen_at(page: Any, point: np.ndarray) -> tuple[float, float]:
     """Where a point is seen from straight before it [CSS pixels of the canvas]."""
-    box, camera = canvas(page).size, ask(page, "cameras[0]")
+    box, camera = canvas(page).size, ask(page, "players[0].base")
     scale = box["height"] / camera["height"]
     right, up = (point[:2] - camera["target"][:2]) * scale
     return box["width"] / 2 + right, box["height"] / 2 - up
@@ -172,30 +175,47 @@ def from_middle(page: Any, at: tuple[float, float]) -> tuple[int, int]:
     return round(at[0] - box["width"] / 2), round(at[1] - box["height"] / 2)
 
 
-def gap(page: Any, at: tuple[float, float]) -> float:
-    """How far the nearest vertex of the cloth is from a line of sight [m]."""
-    ray = np.array(ask(page, f"ray({at[0]}, {at[1]})")).reshape(3, 3)
-    away = flag(page) - ray[0]
-    along = ray[1] / np.linalg.norm(ray[1])
-    return float(np.linalg.norm(np.cross(away, along), axis=1).min())
-
-
 def choose(page: Any, label: str, name: str) -> None:
     """Take one of a list, by its name."""
     path = f"//*[@class='live-bar']//label[starts-with(., '{label}')]//option[@value='{name}']"
     wait_until(lambda: page.find_elements(By.XPATH, path))[0].click()
 
 
-def test_scenes_are_played_and_left_again(page: Any) -> None:
-    panes = "return document.querySelectorAll('.viewer-labels > div').length"
+def test_scenes_are_pictures_that_move_and_are_left_again(page: Any) -> None:
+    moves = (
+        "const image = document.querySelector('.viewer-picture'); return image?.naturalWidth > 0"
+    )
     choose(page, "Scene", "fold")
-    wait_until(lambda: page.execute_script(panes) == 2)
-    assert shows(page, "as printed") and shows(page, "right sign")
-    before = positions(page)
-    wait_until(lambda: np.abs(positions(page) - before).max() > 1e-3)
+    wait_until(lambda: page.execute_script(moves))
+    wait_until(lambda: "getting ready" not in page.find_element(By.CSS_SELECTOR, ".viewer").text)
+    assert ask(page, "players.length") == 0
     choose(page, "Scene", "")
-    wait_until(lambda: page.execute_script(panes) == 0)
+    wait_until(lambda: ask(page, "time") > 0 and not page.execute_script(moves))
     assert console_errors(page) == []
+
+
+def test_without_webgl_there_are_pictures(chromium: Any, studio: Studio) -> None:
+    none = "HTMLCanvasElement.prototype.getContext = () => null"
+    added = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": none})
+    try:
+        open_page(chromium, studio)
+        picture = "return document.querySelector('.viewer-picture')?.naturalWidth > 0"
+        wait_until(lambda: chromium.execute_script(picture))
+        wait_until(lambda: shows(chromium, "WebGL 2 is missing"))
+    finally:
+        chromium.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+
+
+def test_another_thickness_goes_on_with_the_motion_and_the_view(page: Any) -> None:
+    ask(page, "orbit.turn(0.5, 0)")
+    wait_until(lambda: ask(page, "time") > 1)
+    vertices = ask(page, "players[0].header.vertices")
+    page.execute_script(f"{VIEWER}.before = {VIEWER}.players[0]")
+    slider = page.find_element(By.XPATH, "//*[@id='panel-motion']//input[@aria-label='Thickness']")
+    slider.send_keys(Keys.ARROW_RIGHT)
+    wait_until(lambda: ask(page, "players[0] !== viewer.before"))
+    assert ask(page, "time") > 1 and ask(page, "orbit.azimuth") == 0.5
+    assert ask(page, "players[0].header.vertices") == vertices
 
 
 def test_a_garment_of_ones_own_is_sent_and_shown(page: Any, tmp_path: Path) -> None:
@@ -215,59 +235,35 @@ def test_a_garment_of_ones_own_is_sent_and_shown(page: Any, tmp_path: Path) -> N
     assert console_errors(page) == []
 
 
-@pytest.mark.parametrize("view", ["Front", "Hero"])
-def test_it_looks_as_a_picture_does(page: Any, studio: Studio, view: str) -> None:
-    # The viewer draws no cast shadows, so the hero view is compared in the game's own light. Steps
-    # one by one and in one call round time otherwise, which moves a fine cloth a little.
-    few = Settings(grid=(5, 9), solver="desbrun")
-    plain = replace(few, light="game", samples=1, ground="none")
-    open_page(page, studio, f"?d={write_link(sketch_of(Banner.parse('red')), plain)}")
-    reset, pause = (
-        page.find_element(By.CSS_SELECTOR, f'[aria-label="{label}"]')
-        for label in ("Back to rest", "Pause")
+def test_a_pause_is_the_moment_of_the_picture(page: Any) -> None:
+    """The browser's cloth hangs as that of the renderer does at the same time."""
+    page.find_element(By.CSS_SELECTOR, '[aria-label="Back to rest"]').click()
+    wait_until(lambda: 0.3 < ask(page, "time") < 60)
+    page.find_element(By.CSS_SELECTOR, '[aria-label="Pause"]').click()
+    wait_until(lambda: is_still(page))
+    time, seen = ask(page, "time"), flag(page)
+    command = "return document.getElementById('as-command').value"
+    wait_until(
+        lambda: f"--time {math.floor(time * 1e6) / 1e6:g}"[:10] in page.execute_script(command)
     )
-    page.find_element(By.CSS_SELECTOR, '[aria-label="Random design"]').click()
-    design = wait_until(lambda: page.execute_script(WRITTEN))
-    wait_until(lambda: ask(page, "time") > 0.2)
-    pause.click()
-    wait_until(lambda: is_still(page))
-    reset.click()
-    wait_until(lambda: ask(page, "time") == 0)
-    pause.click()
-    wait_until(lambda: ask(page, "time") > 0.8)
-    pause.click()
-    wait_until(lambda: is_still(page))
-    page.find_element(By.XPATH, f"//*[@class='live-bar']//button[.='{view}']").click()
-    wait_until(lambda: (ask(page, "cameras[0].height") is None) == (view == "Hero"))
-    box = canvas(page).size
-    time = math.floor(ask(page, "time") * 60 + 0.5) / 60 - 1e-6
-    own = draw(
-        Banner.parse(design),
-        plain,
-        time=time,
-        view=view.lower(),
-        size=(box["width"], box["height"]),
-    ).pixels
-    seen = picture(page)
-    assert seen.shape == own.shape
-    shown = own[..., 3] > 0
-    assert shown.mean() > 0.1
-    off = np.abs(seen.astype(int) - own).max(axis=-1)
-    # A handful of pixels at edges round otherwise on the graphics card.
-    assert (off > 2).sum() < 0.01 * shown.sum(), (off > 2).sum()
-    assert np.median(off[shown]) == 0
+    settings = Settings(contact="world")
+    body = body_of(Banner(), open_packs(()), settings)
+    live = LiveBody(body, settings)
+    live.advance(round(time * 60))
+    own = live.meshes()[-1].positions
+    assert np.abs(seen - own.reshape(-1, 3)).max() < 0.01
 
 
 def test_it_comes_back_when_the_graphics_card_does(page: Any) -> None:
     page.find_element(By.CSS_SELECTOR, '[aria-label="Pause"]').click()
     wait_until(lambda: is_still(page))
     before = picture(page)
-    lost = "drawing.gl.getExtension('WEBGL_lose_context')"
+    lost = "players[0].drawing.gl.getExtension('WEBGL_lose_context')"
     page.execute_script(f"window.loss = {VIEWER}.{lost}; loss.loseContext()")
-    wait_until(lambda: shows(page, "graphics card"))
+    page.execute_async_script("setTimeout(arguments[0], 200)")
     page.execute_script("loss.restoreContext()")
-    wait_until(lambda: not shows(page, "graphics card"))
-    assert np.array_equal(picture(page), before)
+    page.execute_async_script("setTimeout(arguments[0], 200)")
+    wait_until(lambda: np.array_equal(picture(page), before))
 
 
 def is_still(page: Any) -> bool:

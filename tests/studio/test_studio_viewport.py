@@ -1,110 +1,144 @@
-"""The viewport: what its event loop and its threads share is neither lost nor waited for."""
+"""The viewport: which addresses the viewer is told, and what they answer."""
 
 import asyncio
-import subprocess
+import gzip
+import io
 import sys
-import threading
-import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from fastapi import FastAPI
+from PIL import Image
+from starlette.testclient import TestClient
 
-from drapery.garments import find_garment
-from drapery.packs import open_packs
-from drapery.scenes import Clip, ClipPicture
+from drapery import Banner, OptionError, draw
 from drapery.settings import Settings
-from drapery.studio.live_threads import THREADS, in_thread
+from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.panels.live import show_scene, wear
-from drapery.studio.player import Player, Show, garment_show
-from drapery.studio.session import Session
-from drapery.studio.sketch import Sketch
+from drapery.studio.routes import add_routes
+from drapery.studio.session import Session, Sessions
+from drapery.studio.sketch import Sketch, sketch_of
+from drapery.web.messages import unpack
+from drapery.web.scene_file import scene_bytes
+
+pytestmark = pytest.mark.page  # their module takes minutes to compile
+
+Playable = Callable[..., Settings]
+DESIGN = Banner.parse("white creeper:lime")
 
 
 @pytest.fixture
-def session() -> Iterator[Session]:
-    opened = Session()
-    opened.viewport.turn(0)  # makes the live cloth
+def session(playable: Playable) -> Iterator[Session]:
+    opened = Session(playable(size=(48, 64)), sketch_of(DESIGN))
     yield opened
     opened.close()
 
 
-def test_a_viewer_does_not_wait_for_a_long_turn(session: Session) -> None:
-    """Else it would not see the note which says that the turn is long."""
-    viewport, began, end = session.viewport, threading.Event(), threading.Event()
-    viewport.do(lambda live: (began.set(), end.wait(20)))
-    turn = threading.Thread(target=viewport.turn, args=(0,))
-    turn.start()
-    assert began.wait(20)
-    start = time.monotonic()
-    assert viewport.shown() is None and time.monotonic() < start + 5
-    end.set()
-    turn.join()
-    assert viewport.shown() is not None
+def key_of(address: str) -> str:
+    return address.rpartition("/")[2].partition(".")[0]
 
 
-def test_no_input_is_lost_while_turns_are_made(session: Session) -> None:
-    viewport, seen, done = session.viewport, [], threading.Event()
-
-    def turns() -> None:
-        while not done.is_set():
-            viewport.turn(0)
-
-    thread = threading.Thread(target=turns)
-    thread.start()
-    for number in range(2000):
-        viewport.do(lambda live, number=number: seen.append(number))
-    done.set()
-    thread.join()
-    viewport.turn(0)
-    assert seen == [*range(2000)]
+def scene_key(session: Session) -> str:
+    (address,) = session.viewport.shown["scenes"]
+    return key_of(address)
 
 
-def test_cloth_stands_still_for_a_user_who_prefers_that(session: Session) -> None:
-    """It hangs, as at a moment of its motion, and moves once the user wants it to."""
-    viewport = session.viewport
-
-    def places() -> Any:
-        shown = viewport.shown()
-        assert shown is not None
-        return shown.panes[0].scene.models[-1].mesh.positions
-
-    flat, time_of_picture = places(), session.settings.time
-    viewport.hold_still()
-    viewport.turn(1)
-    hung = places()
-    assert np.abs(hung - flat).max() > 0.02
-    viewport.turn(1)
-    assert np.array_equal(places(), hung)
-    viewport.reset()
-    viewport.turn(1)
-    assert np.array_equal(places(), hung), "cloth at rest would be flat"
-    viewport.update(paused=False)
-    viewport.hold_still()  # a connection that was lost says it again
-    viewport.turn(1)
-    assert not np.array_equal(places(), hung)
-    assert session.settings.time == time_of_picture
+def scene_of(session: Session) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The header and the arrays of the scene that is shown."""
+    return unpack(gzip.decompress(session.viewport.scene(scene_key(session))))
 
 
-def test_a_garment_is_shown_at_rest_and_then_moves(session: Session) -> None:
-    viewport, kinds = session.viewport, []
+def test_what_the_browser_does_itself_is_told_and_changes_no_address(session: Session) -> None:
+    before = scene_key(session)
+    session.edit(Sketch("red"))
+    session.adjust(wind=9.0, direction=40.0, view="back", daylight=0.2, time=1.0, size=(9, 9))
+    shown = session.viewport.shown
+    assert scene_key(session) == before
+    assert shown["design"] == "red" and shown["view"] == "back" and shown["daylight"] == 0.2
+    assert (shown["wind"], shown["direction"], shown["on"]) == (9.0, 40.0, True)
+    session.viewport.switch()
+    assert session.viewport.shown["on"] is False and scene_key(session) == before
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        *({"thickness": 2.0}, {"gusts": 1.0}, {"rotation": 3}, {"placement": "wall"}),
+        *({"fabric": "silk"}, {"grid": (3, 5)}, {"view": "hero"}),
+    ],
+)
+def test_what_is_another_scene_has_another_address(
+    session: Session, options: dict[str, Any]
+) -> None:
+    before = scene_key(session)
+    session.adjust(**options)
+    assert scene_key(session) != before
+    with pytest.raises(OptionError, match="something else by now"):
+        session.viewport.scene(before)
+
+
+def test_a_scene_is_that_of_pages_with_all_patterns(session: Session) -> None:
+    header, arrays = scene_of(session)
+    assert {"creeper", "guster", "base", ""} <= set(header["sheets"])
+    settings = Settings(solver="desbrun", grid=(5, 9), size=(480, 480), light="game", ground="none")
+    page = unpack(gzip.decompress(scene_bytes(Banner(), session.packs(), settings)))
+    assert header == page[0]
+    assert all(np.array_equal(arrays[name], array) for name, array in page[1].items())
+
+
+def test_the_design_on_a_garment_is_part_of_its_scene(session: Session) -> None:
     wear(session, "flag")
-    assert session.settings.view == "hero" and session.settings.wind == 7
-    session.adjust(grid=(3, 5))  # a garment has its own
-    for base in ("white", "red"):
-        session.edit(Sketch(base))
-        viewport.turn(0)
-        shown = viewport.shown()
-        assert shown is not None and not viewport.fault and not shown.live
-        (cloth,) = shown.panes[0].scene.models[-1].materials
-        kinds.append([(each.tint, each.texels.tobytes()) for each in cloth.layers])
-    assert kinds[0] != kinds[1]  # the flag shows the design
-    wear(session, None)
-    viewport.turn(0)
-    shown = viewport.shown()
-    assert shown is not None and shown.live
+    white = scene_key(session)
+    session.edit(Sketch("red"))
+    assert scene_key(session) != white
+
+
+def test_a_still_is_the_picture_of_the_settings(session: Session) -> None:
+    still, film = session.viewport.shown["pictures"]
+    seen = np.asarray(Image.open(io.BytesIO(session.viewport.picture(key_of(still)))))
+    assert np.array_equal(seen, draw(DESIGN, session.settings).pixels)
+    assert film.endswith(".webp")
+    session.adjust(pose="vanilla")
+    assert len(session.viewport.shown["pictures"]) == 1, "it does not move"
+
+
+def test_a_ready_made_scene_is_an_animation(session: Session) -> None:
+    show_scene(session, "fold")
+    shown = session.viewport.shown
+    (film,) = shown["pictures"]
+    assert shown["scenes"] == [] and film.endswith(".webp")
+    assert shown["note"] == "The scene fold is getting ready."
+    show_scene(session, None)
+    assert session.viewport.shown["scenes"]
+    with pytest.raises(OptionError, match="something else by now"):
+        session.viewport.picture(key_of(film))
+
+
+def test_packs_are_shown_side_by_side(session: Session) -> None:
+    session.viewport.update(beside=())
+    shown = session.viewport.shown
+    assert len(shown["scenes"]) == len(shown["labels"]) == 2
+    session.viewport.update(beside=None)
+    assert len(session.viewport.shown["scenes"]) == 1
+
+
+def test_a_pause_becomes_the_moment_of_the_picture(session: Session) -> None:
+    session.viewport.stop_at(1.0)
+    assert session.settings.time == 3.0, "nothing stands still"
+    session.viewport.update(paused=True)
+    session.viewport.stop_at(61.0)
+    assert session.settings.time == 3.0, "a picture would take too long"
+    session.viewport.stop_at(1.23456789)
+    assert session.settings.time == session.viewport.paused_at == 1.234567
+
+
+def test_a_fault_of_the_settings_is_told(session: Session) -> None:
+    wear(session, "flag")
+    session.viewport.update(garment="no-such.toml")
+    assert "no-such.toml" in session.viewport.shown["line"]
 
 
 @pytest.mark.parametrize("scene", [None, "fold"])
@@ -132,87 +166,57 @@ def test_a_shield_comes_back_from_a_garment_without_the_wall_of_its_banner() -> 
     session.close()
 
 
-def test_the_loop_of_a_garment_follows_its_first_picture() -> None:
-    garment, packs = find_garment("pennants"), open_packs(())
-    show = garment_show(garment, packs, garment.settings())
-    player = Player(replace(show, clip=Clip(count=2, fps=10.0)), (64, 64))
-    first = player.step()
-    while (shown := player.step()) is first:
-        time.sleep(0.01)
-    loop = [shown, *(player.step() for _ in range(3))]
-    places = [each.panes[0].scene.models[-1].mesh.positions for each in loop]
-    assert first.cut != loop[0].cut == loop[1].cut
-    assert not np.array_equal(places[0], places[1]) and places[0] is places[2]
+@pytest.fixture
+def client() -> Iterator[tuple[TestClient, Sessions]]:
+    app, sessions = FastAPI(), Sessions()
+    add_routes(app, sessions, KernelBuild(sessions, ()))
+    with TestClient(app) as client:
+        yield client, sessions
+    sessions.close_all()
 
 
-def test_a_loop_that_nobody_will_see_is_given_up(
-    session: Session, monkeypatch: pytest.MonkeyPatch
+def test_the_browser_gets_scenes_kernels_viewer_and_pictures(
+    client: tuple[TestClient, Sessions], playable: Playable
 ) -> None:
-    def endless(clip: Clip, on_moment: Callable[[int, int], object]) -> Iterator[ClipPicture]:
-        while True:
-            on_moment(0, clip.count)
-            time.sleep(0.01)
-
-    def show(*given: Any) -> Show:
-        return replace(garment_show(*given), play=endless)
-
-    monkeypatch.setattr("drapery.studio.viewport.garment_show", show)
-    viewport, threads = session.viewport, set()
-    wear(session, "flag")
-    for base in ("white", "red", "blue"):
-        session.edit(Sketch(base))
-        viewport.turn(0)
-        threads |= {each for each in threading.enumerate() if each.name == "show"}
-    assert viewport.shown() is not None and not viewport.fault
-    assert len(threads) == 3
-    session.close()
-    for thread in threads:
-        thread.join(60)
-        assert not thread.is_alive()
+    page, sessions = client
+    session = sessions.open(playable(size=(24, 32)), sketch_of(DESIGN))
+    shown = session.viewport.shown
+    (scene,) = shown["scenes"]
+    header, _ = unpack(page.get(scene).content)
+    assert header["sheets"][:2] == ["", "base"]
+    assert page.get(shown["module"]).content[:4] == b"\0asm"
+    assert "export { LiveViewer };" in page.get("viewer.js").text
+    still = page.get(shown["pictures"][0])
+    assert still.headers["content-type"] == "image/png"
+    assert Image.open(io.BytesIO(still.content)).size == (24, 32)
+    assert page.get(scene.replace(session.token, "x")).status_code == 404
+    session.adjust(solver="verlet")
+    answer = page.get(session.viewport.shown["scenes"][0])
+    assert (answer.status_code, answer.text[:26]) == (422, "A picture by the renderer,")
 
 
-def test_a_process_ends_while_a_turn_is_made() -> None:
-    """A kernel may be compiled for half a minute, and Ctrl-C would seem to do nothing."""
-    endless = "import asyncio, threading; from drapery.studio.live_threads import in_thread\n"
-    endless += "turn = in_thread(threading.Event().wait)\n"
-    endless += "asyncio.run(asyncio.wait_for(turn, 0.2))"
-    run = subprocess.run([sys.executable, "-c", endless], timeout=100, stderr=subprocess.PIPE)
-    assert run.returncode == 1 and run.stderr.rstrip().endswith(b"TimeoutError")
-
-
-def test_a_turn_is_not_made_if_it_is_cancelled_before_a_thread_is_free() -> None:
-    begun, free, made = threading.Semaphore(0), threading.Event(), []
-
-    def hold() -> None:
-        begun.release()
-        free.wait(60)
+def test_a_module_that_is_missing_is_built_once_and_told(tmp_path: Path) -> None:
+    sessions, told = Sessions(), []
+    sessions.open().listen(lambda: told.append(1), "scene")
+    made = tmp_path / "made"
+    program = f"import pathlib; pathlib.Path({str(made)!r}).open('a').write('x')"
+    building = KernelBuild(sessions, (sys.executable, "-c", program))
 
     async def ask() -> None:
-        held = [asyncio.ensure_future(in_thread(hold)) for _ in range(THREADS)]
-        for _ in held:
-            while not begun.acquire(blocking=False):
-                await asyncio.sleep(0.01)
-        late = asyncio.ensure_future(in_thread(lambda: made.append(1)))
+        assert await building.start() == await building.start()
+        await building.wait()
+
+    asyncio.run(ask())
+    assert made.read_text() == "x" and told == [1]
+    sessions.close_all()
+
+
+def test_a_build_ends_with_the_studio(tmp_path: Path) -> None:
+    building = KernelBuild(Sessions(), (sys.executable, "-c", "import time; time.sleep(600)"))
+
+    async def ask() -> None:
+        await building.start()
         await asyncio.sleep(0)
-        late.cancel()
-        await asyncio.gather(late, return_exceptions=True)
-        free.set()
-        await asyncio.gather(*held)
-        await in_thread(lambda: None)  # jobs are taken in turn
+        await building.stop()
 
     asyncio.run(asyncio.wait_for(ask(), 60))
-    assert made == []
-
-
-def test_no_version_is_counted_twice(session: Session) -> None:
-    viewport = session.viewport
-    before = viewport.version
-    counts = [
-        threading.Thread(target=lambda: [viewport.count_change() for _ in range(5000)])
-        for _ in range(4)
-    ]
-    for thread in counts:
-        thread.start()
-    for thread in counts:
-        thread.join()
-    assert viewport.version == before + 20_000

@@ -28,6 +28,7 @@ from drapery.web.wasm.plan import plans_of
 
 DESIGN = Banner.parse("white creeper:lime border:black")
 SIZE = (320, 480)
+STUDIO = ENTRY.parents[2] / "studio"
 Playable = Callable[..., Settings]
 
 
@@ -47,8 +48,12 @@ def test_the_bundle_is_one_module_that_imports_nothing(tmp_path: Path) -> None:
     run_node("--check", tmp_path / "bundle.mjs")
 
 
-def test_no_two_modules_of_the_designer_share_a_name() -> None:
-    text = bundled_module(DESIGNER_ENTRY, DESIGNER_PUBLIC)
+@pytest.mark.parametrize(
+    ("entry", "public"),
+    [(DESIGNER_ENTRY, DESIGNER_PUBLIC), (STUDIO / "live_viewer.js", ("LiveViewer",))],
+)
+def test_no_two_modules_of_a_bundle_share_a_name(entry: Path, public: tuple[str, ...]) -> None:
+    text = bundled_module(entry, public)
     names = re.findall(r"^(?:async )?(?:function|class|const|let) (\w+)", text, re.M)
     assert "</script" not in text, "a page may hold it"
     assert len(set(names)) == len(names) and not re.search(r"^import |^\s*/\*\*.*\*/$", text, re.M)
@@ -103,12 +108,12 @@ def test_a_scene_has_the_cameras_and_the_light_of_python(playable: Playable) -> 
     packs, settings = open_packs(()), playable(size=SIZE)
     header, _ = unpack(gzip.decompress(scene_bytes(DESIGN, packs, settings)))
     assert list(header["views"]) == list(VIEWS)
-    assert header["views"]["front"] == header["cameras"]["list"][0]
+    assert header["views"]["front"] == header["camera"]
     dark = playable(size=SIZE, daylight=0.3, view="iso")
     other, _ = unpack(gzip.decompress(scene_bytes(DESIGN, packs, dark)))
-    assert header["views"]["iso"] == other["cameras"]["list"][0]
-    assert header["daylights"][3] == other["tints"][0]
-    assert header["daylights"][10] == header["tints"][0]
+    assert header["views"]["iso"] == other["camera"]
+    assert header["daylights"][3] == other["tint"]
+    assert header["daylights"][10] == header["tint"]
 
 
 @pytest.mark.parametrize(

@@ -119,9 +119,9 @@ def test_a_scene_of_a_player_has_the_cameras_and_the_light_of_python() -> None:
     packs, own = open_packs(()), player().settings(solver="desbrun", size=(96, 128), view="front")
     made = (own, own.changed(view="iso", daylight=0.3))
     first, other = (unpack(gzip.decompress(scene_bytes(player(), packs, s)))[0] for s in made)
-    assert first["cameras"]["list"][0] == first["views"]["front"]
-    assert other["cameras"]["list"][0] == first["views"]["iso"] == other["views"]["iso"]
-    assert other["tints"][0] == first["daylights"][3] != first["tints"][0] == first["daylights"][10]
+    assert first["camera"] == first["views"]["front"]
+    assert other["camera"] == first["views"]["iso"] == other["views"]["iso"]
+    assert other["tint"] == first["daylights"][3] != first["tint"] == first["daylights"][10]
 
 
 @pytest.mark.usefixtures("playable")

@@ -12,7 +12,6 @@ from drapery.studio.chosen_scene import what_follows
 from drapery.studio.components import ViewerElement
 from drapery.studio.descriptions import named, view_title
 from drapery.studio.file_field import FileField
-from drapery.studio.live_threads import in_thread
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
@@ -32,7 +31,7 @@ NONE = "none"
 """The choice that shows the banner instead of a garment."""
 SEEN = tuple(
     name
-    for name in applicable(Subject("garment"), "live")
+    for name in applicable(Subject("garment"), "page")
     if not {"wind", "camera"}.isdisjoint(OPTIONS[name].affects)
 )
 """The options that begin anew with each garment."""
@@ -95,7 +94,7 @@ def build(session: Session) -> None:
         follows.set_visibility(scene is not None)
 
     fields.on_refresh(show)
-    session.follow(fields.refresh, "settings", "scene", "steered")
+    session.follow(fields.refresh, "settings", "scene")
 
     async def take(number: int) -> None:
         path = await run.io_bound(session.garment_store.adopt, number)
@@ -111,8 +110,9 @@ def build(session: Session) -> None:
 
     async def list_scenes() -> None:
         # Listing the scenes imports them, so do it after the first picture.
-        found, _ = await in_thread(lambda: (scene_summaries(), garment_descriptions()))
-        if not session.closed:
+        found = await run.io_bound(scene_summaries)
+        await run.io_bound(garment_descriptions)
+        if found is not None and not session.closed:
             names = {name: named(name, summary) for name, summary in found.items()}
             scenes.set_choices({"": translated(OWN)} | names)
             garments.set_choices(_garments(session))

@@ -11,7 +11,7 @@ from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.translation import translated
 from drapery.studio.widgets import translated_text
-from drapery.studio.wind_controls import wind_controls_of
+from drapery.studio.wind_heading import heading_of
 
 GRIDS = ((3, 5), (5, 9), (7, 13), (9, 17), (13, 25), (16, 31), (17, 33), (25, 49), (33, 65))
 NOON = 12.0
@@ -32,7 +32,7 @@ def build(session: Session) -> None:
             _placement(session, fields)
         with _group("Light"):
             _light(session, fields)
-    session.follow(fields.refresh, "settings", "scene", "steered")
+    session.follow(fields.refresh, "settings", "scene")
 
 
 @contextmanager
@@ -57,7 +57,7 @@ def _wind(session: Session, fields: Fields) -> None:
         "Direction",
         OPTIONS["direction"],
         1,
-        lambda: round(wind_controls_of(session.settings).heading),
+        lambda: round(heading_of(session.settings)),
         lambda heading: session.adjust(direction=heading),
         "{:.0f}°".format,
         min=-180,

@@ -40,8 +40,8 @@ def build(session: Session) -> None:
                 translated_text(name.replace("-", " "))
             buttons[name] = on(button, "click", partial(press, name))
     hint(
-        "The live banner has the shapes and the texture of a style. Its lines, tones and large"
-        " pixels are in the pictures that you export."
+        "Most styles are drawn by the renderer: in place of the live cloth you see a picture, which"
+        " moves after some seconds."
     )
     session.follow(show_pressed, "settings")
     session.follow(show_pictures, "sketch", "packs")

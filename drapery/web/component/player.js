@@ -33,11 +33,17 @@ export class Player extends View {
     const fabrics = fabric === null ? [] : [name.replace(".", "-fabrics.")];
     const [scene, module, others] = await Promise.all([name, MODULE, ...fabrics].map(fileBytes));
     if (!isWanted()) return null;
-    const { header, arrays } = retextured(unpack(scene.buffer), textures);
-    const player = new Player(canvas, header, arrays);
+    const made = retextured(unpack(scene.buffer), textures);
+    const player = await this.made(canvas, made, module, text, (plan) => (others ? woven(plan, others, fabric) : plan));
     player.isRetextured = Object.keys(textures).length > 0;
+    return player;
+  }
+
+  // The player of an unpacked scene. planOf: what a plan of the scene is replaced by.
+  static async made(canvas, { header, arrays }, module, text, planOf = (plan) => plan) {
+    const player = new this(canvas, header, arrays);
     player.setDesign(text);
-    const plans = header.grip.map((_, number) => arrays[`plan${number}`]).map((plan) => (others ? woven(plan, others, fabric) : plan));
+    const plans = header.grip.map((_, number) => planOf(arrays[`plan${number}`]));
     player.cloths = await Promise.all(plans.map((plan) => Cloth.load(module, plan)));
     player.restore();
     players.add(player);
@@ -47,8 +53,8 @@ export class Player extends View {
   constructor(canvas, header, arrays) {
     super(canvas);
     Object.assign(this, { header, arrays, given: {}, playing: false, owed: 0, moved: false, reach: 1, grab: null });
-    this.tints = header.tints;
-    this.cameras = header.cameras.list.map(readCamera);
+    this.tint = header.tint;
+    this.base = readCamera(header.camera);
   }
 
   // Draw with a new context.
@@ -56,7 +62,7 @@ export class Player extends View {
     this.drawing = new Drawing(sharedContext());
     const [materials, layers] = this.tables;
     this.drawing.setScene(this.header, { ...this.arrays, materials, layers });
-    this.drawing.setMoment({ ...this.header, tints: this.tints }, this.arrays);
+    this.drawing.setMoment(this.header.runs, this.arrays);
     if (this.moved) this.upload();
     wake(this);
   }
@@ -95,19 +101,19 @@ export class Player extends View {
 
   // Look from the camera of a view, by default that of the scene. Throws an Error for a name that is not known.
   setView(name) {
-    const { views = {}, cameras } = this.header;
-    this.cameras = name === null ? cameras.list.map(readCamera) : [readCamera(views[nameOf("view", name, Object.keys(views))])];
+    const { views = {}, camera } = this.header;
+    this.base = readCamera(name === null ? camera : views[nameOf("view", name, Object.keys(views))]);
     this.reach = 1;
     this.orbit.reset();
   }
 
   // The light of a day: 1 at noon, 0 at night; undefined as planned.
   setDaylight(daylight) {
-    const { daylights, tints } = this.header;
+    const { daylights, tint: planned } = this.header;
     const at = (daylight ?? 0) * (daylights.length - 1);
     const [before, after] = [daylights[Math.floor(at)], daylights[Math.ceil(at)]];
-    this.tints = daylight === undefined ? tints : [before.map((tint, part) => tint + (after[part] - tint) * (at % 1))];
-    this.upload();
+    this.tint = daylight === undefined ? planned : before.map((tint, part) => tint + (after[part] - tint) * (at % 1));
+    wake(this);
   }
 
   // given: wind, its speed [m/s]; direction, to which it blows [degrees from +z towards +x]; seed and
@@ -139,6 +145,29 @@ export class Player extends View {
     return moves;
   }
 
+  // Begin again, in the same wind.
+  reset() {
+    this.drop();
+    this.moved = false;
+    for (const cloth of this.cloths) {
+      cloth.reset();
+      this.blow(cloth);
+    }
+    this.upload();
+    wake(this);
+  }
+
+  // Go on with the motion of another player, if its cloth is like this one; whether it is.
+  follow({ cloths, moved, owed }) {
+    const isLike = (cloth, before) => before && cloth.array("x").length === before.array("x").length && String(cloth.info.pins) === String(before.info.pins);
+    // The cloth of a wearer goes with the wearer's own motion.
+    if (!moved || this.header.textures || !this.cloths.length || !this.cloths.every((cloth, number) => isLike(cloth, cloths[number]))) return false;
+    this.cloths.forEach((cloth, number) => cloth.goOn(cloths[number]));
+    Object.assign(this, { moved, owed });
+    this.upload();
+    return true;
+  }
+
   step(steps) {
     this.moved = true;
     for (const cloth of this.cloths) {
@@ -155,7 +184,7 @@ export class Player extends View {
 
   // Step back as far as cloth blows out of the picture, and slowly come nearer again.
   hold(seconds) {
-    const matrix = clipMatrix(this.cameras[0], this.header.aspect);
+    const matrix = clipMatrix(this.base, this.header.aspect);
     let reach = Math.max(1, this.reach - NEARER * seconds);
     for (const [number, , , name] of this.header.moving) {
       const places = this.cloths[number].array(name);
@@ -169,11 +198,10 @@ export class Player extends View {
 
   // Give the vertices of the cloth, and of a wearer, to the drawing.
   upload() {
-    this.drawing.tints = this.tints;
     for (const [number, start, count, positions, light] of this.header.moving) {
       const cloth = this.cloths[number];
       const now = { positions: cloth.array(positions), light: cloth.array(light) };
-      this.drawing.setMoment({ runs: [[start, count]], tints: this.tints }, now);
+      this.drawing.setMoment([[start, count]], now);
     }
   }
 
@@ -213,8 +241,8 @@ export class Player extends View {
   }
 
   // The scene's camera, further away where the canvas is narrower than what the camera frames, or the cloth wider.
-  baseCamera(number, aspect) {
-    const camera = super.baseCamera(number);
+  baseCamera(aspect) {
+    const camera = this.base;
     const wider = this.reach * Math.max(1, this.header.aspect / aspect);
     const fov = (Math.atan(wider * Math.tan((camera.fov * Math.PI) / 360)) * 360) / Math.PI;
     return { ...camera, fov, height: camera.height && camera.height * wider };
@@ -245,7 +273,7 @@ export class Player extends View {
 
   // The point of a line of sight that is nearest to a place, both in the frame of a panel.
   inSight(x, y, { info }, place) {
-    const { origin, along } = this.rayAt(x, y, 0).ray;
+    const { origin, along } = this.rayAt(x, y);
     const [from, to] = [origin, add(origin, along)].map((point) => info.frame.map((row) => dot(row, point) + row[3]));
     const ahead = unit(subtract(to, from));
     return add(from, scale(ahead, dot(subtract(place, from), ahead)));

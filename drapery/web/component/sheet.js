@@ -41,7 +41,7 @@ export class Sheet {
     const isDrawn = shown.map((player, number) => {
       const { width, height } = player.canvas;
       try {
-        player.drawPanes(fine * width, fine * height, places[number].map((side) => fine * side));
+        player.drawInto(fine * width, fine * height, places[number].map((side) => fine * side));
         return true;
       } catch (error) {
         this.fail(player, error);

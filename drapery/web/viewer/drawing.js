@@ -53,12 +53,12 @@ export class Drawing {
     const gl = this.gl;
     const count = header.vertices;
     this.scene = { header, ...arrays, positions: new Float32Array(3 * count), light: new Float32Array(count) };
-    this.scene.panes = header.panes.map((pane) => splitPane(pane, arrays));
+    Object.assign(this, splitTriangles(arrays));
     gl.bindVertexArray(this.vertexArray);
     this.attribute("position", 3, this.scene.positions, gl.DYNAMIC_DRAW);
     this.attribute("light", 1, this.scene.light, gl.DYNAMIC_DRAW);
     this.attribute("uv", 2, arrays.uvs, gl.STATIC_DRAW);
-    this.indices = this.filled("indices", gl.ELEMENT_ARRAY_BUFFER, allIndices(this.scene.panes), gl.DYNAMIC_DRAW);
+    this.indices = this.filled("indices", gl.ELEMENT_ARRAY_BUFFER, Uint32Array.from([...this.solid, ...this.blend]), gl.DYNAMIC_DRAW);
     this.setMaterials(arrays.materials, arrays.layers);
   }
 
@@ -76,11 +76,11 @@ export class Drawing {
   }
 
   // Update the vertices that have moved.
-  setMoment(header, arrays) {
+  setMoment(runs, arrays) {
     const gl = this.gl;
     const { positions, light } = this.scene;
     let from = 0;
-    for (const [first, count] of header.runs) {
+    for (const [first, count] of runs) {
       const moved = arrays.positions.subarray(3 * from, 3 * (from + count));
       const lit = arrays.light.subarray(from, from + count);
       positions.set(moved, 3 * first);
@@ -91,41 +91,32 @@ export class Drawing {
       gl.bufferSubData(gl.ARRAY_BUFFER, 4 * first, lit);
       from += count;
     }
-    this.tints = header.tints;
   }
 
-  // Draw each pane into its rectangle, [x, y, width, height] with the origin at the lower left, which
-  // `clear` has made empty.
-  draw(rects, matrices) {
-    const gl = this.gl;
-    if (!this.tints) return;
+  // Draw into a rectangle, [x, y, width, height] with the origin at the lower left, which `clear` has made empty.
+  draw(rect, matrix, tint) {
+    const { gl, solid } = this;
+    const { background } = this.scene.header;
     gl.useProgram(this.program);
     gl.bindVertexArray(this.vertexArray);
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
-    this.scene.panes.forEach((pane, number) => {
-      if (rects[number]) this.drawPane(pane, rects[number], matrices[number], this.tints[number]);
-    });
-  }
-
-  drawPane(pane, rect, matrix, tint) {
-    const gl = this.gl;
     gl.viewport(...rect);
     gl.scissor(...rect);
-    if (pane.background[3]) clear(gl, rect, pane.background);
+    if (background[3]) clear(gl, rect, background);
     gl.uniformMatrix4fv(this.clip, false, matrix);
     gl.uniform3fv(this.tint, tint);
     gl.disable(gl.BLEND);
     gl.depthMask(true);
-    gl.drawElements(gl.TRIANGLES, pane.solid.length, gl.UNSIGNED_INT, 4 * pane.start);
-    if (!pane.blend.length) return;
-    sortFarToNear(pane, this.scene.positions, matrix);
-    gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, 4 * (pane.start + pane.solid.length), pane.blend);
+    gl.drawElements(gl.TRIANGLES, solid.length, gl.UNSIGNED_INT, 0);
+    if (!this.blend.length) return;
+    this.blend = farToNear(this.blend, this.scene.positions, matrix);
+    gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, 4 * solid.length, this.blend);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
-    gl.drawElements(gl.TRIANGLES, pane.blend.length, gl.UNSIGNED_INT, 4 * (pane.start + pane.solid.length));
+    gl.drawElements(gl.TRIANGLES, this.blend.length, gl.UNSIGNED_INT, 4 * solid.length);
     gl.depthMask(true);
   }
 
@@ -194,42 +185,28 @@ function link(gl) {
   return program;
 }
 
-// Split a pane's triangles into opaque ones and blended ones.
-function splitPane(pane, { triangles, triangleMaterials, materials }) {
-  const [first, count] = pane.triangles;
+// The vertices of opaque triangles and of blended ones.
+function splitTriangles({ triangles, triangleMaterials, materials }) {
   const solid = [];
   const blend = [];
-  for (let t = first; t < first + count; t++) {
-    const list = materials[4 * triangleMaterials[t] + 2] === BLEND ? blend : solid;
+  triangleMaterials.forEach((material, t) => {
+    const list = materials[4 * material + 2] === BLEND ? blend : solid;
     list.push(triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]);
-  }
-  return { ...pane, solid: Uint32Array.from(solid), blend: Uint32Array.from(blend), start: 0 };
+  });
+  return { solid, blend: Uint32Array.from(blend) };
 }
 
-function allIndices(panes) {
-  const total = panes.reduce((sum, pane) => sum + pane.solid.length + pane.blend.length, 0);
-  const indices = new Uint32Array(total);
-  let at = 0;
-  for (const pane of panes) {
-    pane.start = at;
-    indices.set(pane.solid, at);
-    indices.set(pane.blend, at + pane.solid.length);
-    at += pane.solid.length + pane.blend.length;
-  }
-  return indices;
-}
-
-function sortFarToNear(pane, positions, m) {
-  const count = pane.blend.length / 3;
+function farToNear(blend, positions, m) {
+  const count = blend.length / 3;
   const depth = new Float64Array(count);
   for (let t = 0; t < count; t++)
     for (let corner = 0; corner < 3; corner++) {
-      const v = 3 * pane.blend[3 * t + corner];
+      const v = 3 * blend[3 * t + corner];
       const [x, y, z] = [positions[v], positions[v + 1], positions[v + 2]];
       depth[t] += (m[2] * x + m[6] * y + m[10] * z + m[14]) / (m[3] * x + m[7] * y + m[11] * z + m[15]);
     }
   const order = Array.from(depth.keys()).sort((a, b) => depth[b] - depth[a] || a - b);
-  const sorted = new Uint32Array(pane.blend.length);
-  order.forEach((from, to) => sorted.set(pane.blend.subarray(3 * from, 3 * from + 3), 3 * to));
-  pane.blend = sorted;
+  const sorted = new Uint32Array(blend.length);
+  order.forEach((from, to) => sorted.set(blend.subarray(3 * from, 3 * from + 3), 3 * to));
+  return sorted;
 }

@@ -2,13 +2,12 @@
 
 import { cross, dot, subtract } from "./matrices.js";
 
-export function meetsCloth(scene, number, ray) {
-  const [first, count] = scene.header.panes[number].triangles;
+export function meetsCloth(scene, ray) {
   const canGrab = (vertex) => scene.header.grip.some(([start, size]) => vertex >= start && vertex < start + size);
   const at = (vertex) => scene.positions.subarray(3 * vertex, 3 * vertex + 3);
   let nearest = Infinity;
   let cloth = false;
-  for (let t = first; t < first + count; t++) {
+  for (let t = 0; 3 * t < scene.triangles.length; t++) {
     const corners = scene.triangles.subarray(3 * t, 3 * t + 3);
     const distance = meets(ray, at(corners[0]), at(corners[1]), at(corners[2]));
     if (distance < nearest) {

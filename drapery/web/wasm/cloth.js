@@ -66,6 +66,12 @@ export class Cloth {
     for (let n = 0; n < steps; n++) this.call("play");
   }
 
+  // Go on with the motion of another cloth of as many particles.
+  goOn(other) {
+    for (const name of ["x", "v", "clock", "positions", "velocities"]) this.array(name).set(other.array(name));
+    this.written.clear();
+  }
+
   get time() {
     return Number(this.array("clock")[0]) * this.info.step;
   }

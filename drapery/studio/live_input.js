@@ -9,27 +9,24 @@ const TEXT_FIELDS =
   + " [contenteditable=true], [role=textbox], [role=combobox], [role=listbox]";
 const OVERLAYS = "dialog[open], .q-dialog"; // while one is open, it receives the keys
 
-const viewers = new Set();
-
 export class InputHandler {
-  // viewer: has canvas, orbit, redraw(), ray(x, y), hitsCloth(x, y), send(message), azimuth().
+  // viewer: has host, the element with its canvases, and orbit; see `live_viewer.js`.
   constructor(viewer) {
     this.viewer = viewer;
     this.pointers = new Map();
     this.heldKeys = new Set();
     this.pulling = false;
-    const { canvas } = viewer;
-    this.listen(canvas, "pointerdown", (event) => this.down(event));
-    this.listen(canvas, "pointermove", (event) => this.move(event));
+    const { host } = viewer;
+    this.listen(host, "pointerdown", (event) => this.down(event));
+    this.listen(host, "pointermove", (event) => this.move(event));
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
-      this.listen(canvas, end, (event) => this.up(event));
-    this.listen(canvas, "wheel", (event) => this.wheel(event));
-    this.listen(canvas, "dblclick", () => this.change(() => viewer.orbit.reset()));
-    this.listen(canvas, "contextmenu", (event) => event.preventDefault());
+      this.listen(host, end, (event) => this.up(event));
+    this.listen(host, "wheel", (event) => this.wheel(event));
+    this.listen(host, "dblclick", () => this.change(() => viewer.orbit.reset()));
+    this.listen(host, "contextmenu", (event) => event.preventDefault());
     this.listen(window, "keydown", (event) => this.key(event, true));
     this.listen(window, "keyup", (event) => this.key(event, false));
     this.listen(window, "blur", () => this.release());
-    viewers.add(this);
   }
 
   listen(target, name, call) {
@@ -41,7 +38,6 @@ export class InputHandler {
   end() {
     this.release();
     for (const [target, name, call] of this.listeners) target.removeEventListener(name, call);
-    viewers.delete(this);
   }
 
   change(call) {
@@ -51,15 +47,12 @@ export class InputHandler {
 
   down(event) {
     event.preventDefault();
-    this.viewer.canvas.focus({ preventScroll: true });
-    this.viewer.canvas.setPointerCapture(event.pointerId);
+    this.viewer.host.focus({ preventScroll: true });
+    event.target.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
     this.shifting = event.shiftKey || event.button === 2;
     if (this.pointers.size > 1) this.drop();
-    else if (event.button === 0 && !event.shiftKey && this.viewer.hitsCloth(event.offsetX, event.offsetY)) {
-      this.pulling = true;
-      this.viewer.send({ grab: this.viewer.ray(event.offsetX, event.offsetY) });
-    }
+    else if (event.button === 0 && !event.shiftKey) this.pulling = this.viewer.grabAt(event.offsetX, event.offsetY);
     this.cursor(event);
   }
 
@@ -69,14 +62,14 @@ export class InputHandler {
     const [dx, dy] = [event.offsetX - before[0], event.offsetY - before[1]];
     const spread = this.spread();
     this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
-    const { orbit, canvas } = this.viewer;
-    if (this.pulling) this.viewer.send({ pull: this.viewer.ray(event.offsetX, event.offsetY) });
+    const { orbit, host } = this.viewer;
+    if (this.pulling) this.viewer.pullTo(event.offsetX, event.offsetY);
     else if (this.pointers.size === 2)
       this.change(() => {
         if (spread) orbit.dolly(spread / Math.max(1, this.spread()));
-        orbit.shift(dx / 2 / canvas.clientHeight, -dy / 2 / canvas.clientHeight);
+        orbit.shift(dx / 2 / host.clientHeight, -dy / 2 / host.clientHeight);
       });
-    else if (this.shifting) this.change(() => orbit.shift(dx / canvas.clientHeight, -dy / canvas.clientHeight));
+    else if (this.shifting) this.change(() => orbit.shift(dx / host.clientHeight, -dy / host.clientHeight));
     else if (this.pointers.size === 1) this.change(() => orbit.drag(dx, dy));
   }
 
@@ -87,7 +80,7 @@ export class InputHandler {
   }
 
   drop() {
-    if (this.pulling) this.viewer.send({ drop: 1 });
+    if (this.pulling) this.viewer.drop();
     this.pulling = false;
   }
 
@@ -98,13 +91,13 @@ export class InputHandler {
   }
 
   cursor(event) {
-    const { canvas } = this.viewer;
+    const { host } = this.viewer;
     if (event.pointerType === "touch" || this.waiting) return;
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
       const over = !this.pointers.size && this.viewer.hitsCloth(event.offsetX, event.offsetY);
-      canvas.style.cursor = this.pulling ? "grabbing" : over ? "grab" : "move";
+      host.style.cursor = this.pulling ? "grabbing" : over ? "grab" : "move";
     });
   }
 
@@ -116,14 +109,12 @@ export class InputHandler {
 
   // While the viewer has the focus: Shift + arrows turn the view, + and - zoom, Home resets it.
   key(event, down) {
-    const inside = event.target === this.viewer.canvas;
+    const inside = event.target === this.viewer.host;
     if (inside && down && this.moveCamera(event)) return event.preventDefault();
-    if ([...viewers][0] !== this && !inside) return;
-    if ([...viewers].some((other) => other !== this && other.viewer.canvas === event.target)) return;
     if (down && (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey)) return;
     const key = STEERING[event.code];
     if (!down) {
-      if (key && this.heldKeys.delete(key)) this.steer();
+      if (key && this.heldKeys.delete(key)) this.viewer.steer(this.heldKeys);
       return;
     }
     if (event.defaultPrevented || event.target.closest?.(TEXT_FIELDS) || document.querySelector(OVERLAYS)) return;
@@ -131,10 +122,10 @@ export class InputHandler {
     if (elsewhere && (event.code === "Space" || event.code.startsWith("Arrow"))) return;
     if (event.code === "Space") {
       event.preventDefault();
-      if (!event.repeat) this.viewer.send({ switch: 1 });
+      if (!event.repeat) this.viewer.switchWind();
     } else if (key) {
       event.preventDefault();
-      if (!this.heldKeys.has(key)) this.steer(this.heldKeys.add(key));
+      if (!this.heldKeys.has(key)) this.viewer.steer(this.heldKeys.add(key));
     }
   }
 
@@ -145,16 +136,12 @@ export class InputHandler {
     return pressed;
   }
 
-  steer() {
-    this.viewer.send({ keys: [[...this.heldKeys].join(""), this.viewer.azimuth()] });
-  }
-
   release() {
     this.drop();
     this.pointers.clear();
     if (this.heldKeys.size) {
       this.heldKeys.clear();
-      this.steer();
+      this.viewer.steer(this.heldKeys);
     }
   }
 }
