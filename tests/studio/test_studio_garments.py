@@ -129,7 +129,7 @@ def test_a_skin_that_is_sent_becomes_a_player_with_the_design_on_its_head(
     assert player.wearer.skin == path and player.wearer.head == Banner("red")
     assert [each.name for each in player.over] == ["cape"]
     command = as_command(request, session.garment_store.names)
-    words = "drapery player --skin 'Me & I.png' --wear cape --head red --worn-design red -o"
+    words = 'drapery player --skin "Me & I.png" --wear cape --head red --worn-design red -o'
     assert command.startswith(words)
     code = as_python(request, session.garment_store.names)
     assert (

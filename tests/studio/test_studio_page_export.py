@@ -244,7 +244,7 @@ def test_packs_change_the_patterns(page: Page, tmp_path: Path) -> None:
     assert wait_until(lambda: sheet(page) == before)
     page.run("document.querySelector('.pack input').click()")
     assert wait_until(lambda: sheet(page) == changed)
-    wait_until(lambda: "--pack 'blue <b>&.zip'" in page.text("#as-command"))
+    wait_until(lambda: '--pack "blue <b>&.zip"' in page.text("#as-command"))
     assert str(page.studio.folder) not in page.text("#as-command")
     page.fill("packs", "Compare with", "own")
     loaded = "return [...document.querySelectorAll('.versus img')].map((i) => i.naturalWidth)"
