@@ -372,8 +372,7 @@ def lee_of(settings: Settings) -> float:
 
 @lru_cache(maxsize=64)
 def in_lee(wind: Wind, lee: float) -> Wind:
-    """The wind of which this share across the cloth is left; the same object for the same wind, of
-    which a server has as many as live cloths."""
+    """The wind of which this share across the cloth is left; the same object for the same wind."""
     x, y, z = wind.velocity
     return replace(wind, velocity=(x, y, lee * z))
 
