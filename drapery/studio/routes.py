@@ -113,15 +113,16 @@ def _add_live(app: FastAPI, session_of: SessionOf) -> None:
             return _not_shown(session, error)
 
     @app.get("/live/{token}/{key}.{ending}")
-    def picture(token: str, key: str, ending: Literal["png", "webp"]) -> Response:
+    def picture(token: str, key: str, ending: str) -> Response:
         session = session_of(token)
         if not session.viewport.shows(key):
             return Response(status_code=204)
         try:
+            kind = format_of(f"{key}.{ending}", "still", "loop").media_type
             data = session.viewport.picture(key)
         except DraperyError as error:
             return _not_shown(session, error)
-        return Response(data, media_type=f"image/{ending}", headers={"Cache-Control": CACHING})
+        return Response(data, media_type=kind, headers={"Cache-Control": CACHING})
 
 
 def _add_player(app: FastAPI, building: KernelBuild) -> None:

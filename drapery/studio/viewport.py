@@ -257,12 +257,12 @@ class Viewport:
             settings = settings.changed(wind=0.0)
         small = settings.changed(size=(SIZE, SIZE))
         if request.scene is not None:
-            chosen = scene_choice(request.scene, design, settings)
-            reduced = tuple(word for name, word in REDUCED if name == chosen.name)
-            chosen = replace(chosen, words=(*chosen.words, *reduced))
-            clip = find_scene(chosen.name).clip
+            scene = scene_choice(request.scene, design, settings)
+            reduced = tuple(word for name, word in REDUCED if name == scene.name)
+            scene = replace(scene, words=(*scene.words, *reduced))
+            clip = find_scene(scene.name).clip
             seconds = clip.count / clip.fps
-            film = ExportRequest(design, small, "webp", seconds, clip.fps, scene=chosen)
+            film = ExportRequest(design, small, "webp", seconds, clip.fps, scene=scene)
             return [film], f"scene {request.scene}"
         still = ExportRequest(design, settings, garment=request.garment, skin=request.skin)
         film = replace(still, settings=small, kind="webp")

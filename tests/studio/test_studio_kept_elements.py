@@ -15,7 +15,6 @@ BUILT_ANEW = {
     ("document.py", "self._listeners"): "functions, no elements",
     ("exports.py", "self"): "exports, no elements",
     ("session.py", "self._kept"): "work of closed pages, no elements",
-    ("stream.py", "self._ready"): "an event, no element",
     ("panels/export.py", "self._warnings"): "lines of text without a button",
     ("panels/library.py", "self._undo"): "a new offer, which a click on the last must not take",
     ("widgets.py", "child"): "KeptElements itself: what is wanted no longer",

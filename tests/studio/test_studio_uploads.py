@@ -19,6 +19,7 @@ from drapery.banner.design import Banner
 from drapery.errors import DesignError, DraperyError, PackError
 from drapery.settings import Settings
 from drapery.studio import uploads as module
+from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.pack_store import PackStore
 from drapery.studio.routes import add_routes
 from drapery.studio.session import Session, Sessions, StudioConfig
@@ -50,7 +51,7 @@ def packed(tmp_path: Path, *reds: int) -> bytes:
 def test_a_file_whose_sender_leaves_is_refused_in_one_line_and_leaves_nothing() -> None:
     """An upload that was stopped ended in a traceback of the server."""
     app, sessions = FastAPI(), Sessions(StudioConfig())
-    add_routes(app, sessions)
+    add_routes(app, sessions, KernelBuild(sessions))
     session = sessions.open()
     parts = [{"type": "http.request", "body": b"x" * 100, "more_body": True}]
     sent: list[dict[str, Any]] = []
