@@ -40,8 +40,9 @@ PREFERENCES = {
 
 
 @pytest.fixture(scope="session")
-def firefox() -> "Iterator[Firefox]":
-    """A browser of its own profile; skipped only where Firefox, Xvfb or the client is missing."""
+def firefox(playable: object) -> "Iterator[Firefox]":
+    """A browser of its own profile; skipped only where Firefox, Xvfb or the client is missing, or
+    the compiler for the kernels of pages."""
     pytest.importorskip("websocket", reason="websocket-client is not installed (selenium needs it)")
     if FIREFOX is None or XVFB is None:
         pytest.skip("Firefox and Xvfb are not installed (apt: firefox-esr, xvfb)")

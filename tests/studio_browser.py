@@ -17,7 +17,6 @@ from typing import Any, TypeVar
 import pytest
 from compile_kernels import single
 from tracing import untraced_environment
-from wasm_player import built_module
 
 from drapery import Banner, draw
 
@@ -112,7 +111,6 @@ class Studio:
 def compiled_kernels() -> None:
     """Fill the kernel cache, so that no deadline of a page's test includes a compiler's time."""
     single()
-    built_module()
     draw(Banner.parse("red creeper:lime"), view="hero", shadow=True, wind=4.0)
 
 
@@ -138,8 +136,9 @@ def studio(running_studio: Studio) -> Studio:
 
 
 @pytest.fixture(scope="session")
-def chromium() -> Iterator[Any]:
-    """A browser of its own profile; skipped only where there is no Chromium or driver."""
+def chromium(playable: object) -> Iterator[Any]:
+    """A browser of its own profile; skipped only where there is no Chromium or driver, or no
+    compiler for the kernels of pages."""
     if CHROMIUM is None or DRIVER is None:
         pytest.skip("Chromium and its driver are not installed (apt: chromium, chromium-driver)")
     with tempfile.TemporaryDirectory() as folder:
