@@ -80,7 +80,7 @@ def recorded_calls() -> list[Call]:
     for options in PICTURES:
         draw(banner, **{"size": (32, 32), "time": 0.1, **options})
     list(iter_frames(banner, seconds=0.1, fps=20, size=(32, 32)))
-    cloth = grid(2, 2, 1.0, 1.0)  # what the studio shows is covered by a kernel
+    cloth = grid(2, 2, 1.0, 1.0)  # crowds are covered by a kernel
     shell = make_shell(cloth.triangles, cloth.uvs)
     cover_crowd(shell, cloth.rest_positions[None].astype(float), 0.1)
     EntryPoint.__call__, EntryPoint.compiled = run, look_up  # type: ignore[method-assign]
