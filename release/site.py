@@ -63,9 +63,18 @@ def build(out: Path, files: Sequence[Path]) -> None:
     with tempfile.TemporaryDirectory() as name:
         write_designer(Path(name), Settings(size=SIZE))
         check_sizes(Path(name), page_text(Banner.parse("white creeper:lime"), Settings()))
-        shutil.copytree(name, out, dirs_exist_ok=True)
+        put_files(Path(name), out)
     page = out / PAGE
     page.write_text(linked(page.read_text("utf-8")), "utf-8", newline="\n")
+
+
+def put_files(folder: Path, out: Path) -> None:
+    """Copy the files of a folder into another, which keeps its rights.
+
+    Those of a temporary folder let no other user in, so a server could read nothing.
+    """
+    for path in folder.iterdir():
+        shutil.copy(path, out)
 
 
 def sent_bytes(folder: Path) -> dict[str, int]:

@@ -2,6 +2,7 @@
 
 import io
 import re
+import tempfile
 import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
@@ -51,6 +52,15 @@ def test_large_pages_are_refused(
     (tmp_path / name).write_bytes(bytes(size))
     with pytest.raises(SystemExit, match=fault) if fault else nullcontext():
         site.check_sizes(tmp_path, page * "x")
+
+
+def test_a_server_of_another_user_may_read_the_site(tmp_path: Path) -> None:
+    out = tmp_path / "site"
+    out.mkdir(mode=0o755)
+    with tempfile.TemporaryDirectory() as name:
+        Path(name, PAGE).touch()
+        site.put_files(Path(name), out)
+    assert (out / PAGE).is_file() and out.stat().st_mode & 0o055 == 0o055
 
 
 @pytest.fixture(scope="module")
