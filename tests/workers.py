@@ -1,7 +1,8 @@
 """How `pytest` spreads the whole suite over processes; `conftest.py` has these hooks.
 
-A run of single files, or of tests chosen by name, needs no other process. `-n` says another number.
-Tests of pages run apart, with `-m page`: their kernels and browsers take a third of the time.
+A run of single files, or of tests chosen by name, needs no other process; `-m quick` takes two, and
+`-n` says another number. Tests of pages run apart, with `-m page`: their kernels and browsers take
+a third of the time.
 """
 
 import os
@@ -15,9 +16,11 @@ FOR_PAGES = {"chromium", "firefox", "playable"}
 PAGES = "test_studio_page"
 """The studio's tests in a browser wait for it and for a server, with deadlines: one worker runs
 them all, one after another."""
+QUICK = "quick"
+"""With `-m quick`, the one picture and its kernels are made beside all other tests."""
 LONGEST = (
-    *("test_cloth_bounds", "test_testing_outside", "test_batch_run", "test_batch_server"),
-    *("test_cloth_bending", "test_render_soft", "test_typing"),
+    *("test_default_picture", "test_cloth_bounds", "test_testing_outside", "test_batch_run"),
+    *("test_batch_server", "test_cloth_bending", "test_render_soft", "test_typing"),
 )
 """Files that begin so come first, so that no worker is alone with them at the end."""
 MOST = 8
@@ -31,8 +34,11 @@ def pytest_cmdline_main(config: pytest.Config) -> None:
     if not config.pluginmanager.hasplugin("xdist") or is_worker(config):
         return
     # pytest-cov has read its options already: without -n it measures this process alone.
-    if option.numprocesses is None and is_whole(config) and not getattr(option, "cov_source", None):
-        option.numprocesses = "auto"  # with --pdb, pytest-xdist takes none
+    if option.numprocesses is None and not getattr(option, "cov_source", None):
+        if is_whole(config):
+            option.numprocesses = "auto"  # with --pdb, pytest-xdist takes none
+        elif option.markexpr == QUICK:
+            option.numprocesses = 2  # one waits for the kernels of the picture
     if option.dist == "no":
         option.dist = "loadfile"
     option.loadscopereorder = False
@@ -54,7 +60,7 @@ def is_whole(config: pytest.Config) -> bool:
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """With `-m quick`, import only the files that have such tests: all take half a minute."""
-    if config.option.markexpr != "quick" or collection_path.suffix != ".py":
+    if config.option.markexpr != QUICK or collection_path.suffix != ".py":
         return None
     return "mark.quick" not in collection_path.read_text(encoding="utf-8") or None
 
