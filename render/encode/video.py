@@ -18,7 +18,9 @@ WHITE = (255, 255, 255)
 BT709, LIMITED_RANGE = 1, 1
 H264 = "libx264"
 # A fixed number of threads, since the output of the encoders depends on it.
-X264 = {"crf": "14", "preset": "medium", "tune": "animation"}
+X264 = {"crf": "13", "preset": "superfast", "tune": "animation"}
+# Bits go to what stays in the picture, which halves the file of a fast preset.
+X264_PARAMETERS = "mbtree=1:rc-lookahead=20"
 VP9 = {"crf": "16", "b": "0", "deadline": "good", "cpu-used": "4"}
 
 
@@ -26,7 +28,8 @@ def write_mp4(
     path: Path, frames: Iterable[HasPixels], fps: float | None, matte: Matte | None
 ) -> None:
     """An MP4. The background is the matte, or white. Raises BackendError if PyAV is missing."""
-    options = {**X264, "x264-params": "asm=AVX2"} if _has_avx512() else X264
+    parameters = X264_PARAMETERS + (":asm=AVX2" if _has_avx512() else "")
+    options = {**X264, "x264-params": parameters}
     _write_video(path, "mp4", H264, options, frames, fps or 1, matte or WHITE)
 
 
@@ -107,8 +110,10 @@ def _describe(stream: Any, pixels: Pixels, pixel_format: str) -> None:
 def _video_frame(av: Any, pixel_format: str, matte: Matte | None, frame: HasPixels) -> Any:
     pixels = frame.pixels if matte is None else over_matte(frame.pixels, matte)
     height, width = pixels.shape[:2]
-    even = np.pad(pixels, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
-    rgb = av.VideoFrame.from_ndarray(even, "rgba" if matte is None else "rgb24")
+    if height % 2 or width % 2:
+        pixels = np.pad(pixels, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
+    # The frame reads the array's memory, and the conversion alone copies it.
+    rgb = av.VideoFrame.from_numpy_buffer(np.ascontiguousarray(pixels), "rgba")
     return rgb.reformat(
         format=pixel_format, dst_colorspace="ITU709", src_color_range="JPEG", dst_color_range="MPEG"
     )

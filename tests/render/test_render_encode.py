@@ -256,7 +256,8 @@ def test_a_picture_over_a_matte_is_exact_at_each_alpha(step: int) -> None:
     pixels[:20, :, 3], pixels[20:30, :, 3] = 0, 255
     alpha = pixels[..., 3:].astype(int)
     exact = (alpha * pixels[..., :3] + (255 - alpha) * [12, 255, 7] + 127) // 255
-    assert np.array_equal(over_matte(pixels, (12, 255, 7)), exact)
+    laid = over_matte(pixels, (12, 255, 7))
+    assert np.array_equal(laid[..., :3], exact) and (laid[..., 3] == 255).all()
 
 
 def test_a_video_lies_on_its_matte(tmp_path: Path) -> None:
