@@ -140,23 +140,27 @@ def hatch(
     *,
     paper: Annotated[Colour, Field(description="colour of the paper")] = "#f4ead2",
     ink: Annotated[Colour, Field(description="colour of the lines")] = "#2a221c",
-    spacing: Annotated[int, Field(ge=3, le=16, description="between lines [1/8 texel]")] = 7,
-    width: Annotated[int, Field(ge=1, le=8, description="of lines [1/8 texel]")] = 2,
+    spacing: Annotated[int, Field(ge=3, le=16, description="between lines [1/8 texel]")] = 9,
+    width: Annotated[int, Field(ge=1, le=8, description="of lines [1/8 texel]")] = 3,
+    strength: Annotated[
+        float, Field(ge=0.1, le=1, description="of lines; edges of charges are of full ink")
+    ] = 0.7,
 ) -> Material:
     """Each dye as the heraldic hatching of Silvester Petra Sancta ("Tesserae gentilitiae", 1638).
 
     Dots are gold, upright lines red, level lines blue, lines down to the right green, lines down to
     the left purple, crossed lines black, and plain paper is silver. Under a gradient the lines of a
-    charge become thinner and those of the gradient wider, as one dye fades into the other.
+    charge become thinner and those of the gradient wider, as one dye fades into the other. Where
+    lines cross, the ink is darker.
     """
     texels, _ = _enlarged(material, 8)
     charges = _charges(material, texels)
-    drawn = _near(_borders(charges.labels), 1).astype(np.float64)
+    blank, black = np.array(rgb_of(paper), float), np.array(rgb_of(ink), float)
+    left = 1.0 - _near(_borders(charges.labels), 1)
     for number, share in charges.shares.items():
         for mark in _HATCHING[NAMES[number]]:
-            np.maximum(drawn, _lines(mark, spacing, width * share), out=drawn)
-    blank, black = np.array(rgb_of(paper), float), np.array(rgb_of(ink), float)
-    return _sheet(material, _coloured(texels, blank + drawn[..., None] * (black - blank)))
+            left *= 1 - strength * _lines(mark, spacing, width * share)
+    return _sheet(material, _coloured(texels, black + left[..., None] * (blank - black)))
 
 
 @costs(24)

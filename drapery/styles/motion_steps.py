@@ -39,7 +39,7 @@ def calm(
     piece: Piece,
     positions: Array,
     *,
-    frames: Annotated[int, Field(ge=2, le=60, description="from a pose until it fades out")] = 3,
+    frames: Annotated[int, Field(ge=2, le=60, description="from a pose until it fades out")] = 6,
 ) -> Array:
     """Slow folds: each pose is a mean of those around it, which count less the farther they are.
 
