@@ -23,6 +23,7 @@ from docs_blocks import (
 )
 from page_files import write_files
 from PIL import Image
+from public_api import PACKAGES
 
 from drapery.web.gallery import ITEMS, GalleryItem
 
@@ -103,6 +104,12 @@ def test_the_golden_test_of_the_guide_passes_after_its_update(
         (reader.folder / f"test_{number}.py").write_text(program, "utf-8")
     for options, code in ((" ", 1), (" --drapery-update", 0), (" ", 0)):
         assert reader.run("pytest" + options)[0] == code
+
+
+def test_programs_of_pages_import_public_packages() -> None:
+    programs = [block.text for page in ALL for block in blocks(page) if block.language == "python"]
+    imported = re.findall(r"(?m)^ *(?:from|import) (drapery[\w.]*)", "\n".join(programs))
+    assert len(imported) > 50 and set(imported) <= set(PACKAGES)
 
 
 @pytest.mark.parametrize("page", ALL, ids=lambda page: page.relative_to(ROOT).as_posix())

@@ -2,7 +2,7 @@
 
 ```python
 from drapery.cloth import grid
-from drapery.mesh import Mesh, vertex_normals
+from drapery.render import Mesh, vertex_normals
 from drapery.style import FLAG_MAPPING, extrude
 
 cloth = grid(5, 9, width=0.8, height=1.6)
