@@ -107,15 +107,22 @@ def embroider(
 
 
 @costs(4)
-def flatten(material: Material) -> Material:
+def flatten(
+    material: Material,
+    *,
+    gradients: Annotated[float, Field(ge=0, le=1, description="strength of gradients")] = 1.0,
+) -> Material:
     """Each charge in its dye alone: no shading of its texture, and no half covered texels at edges.
 
-    Gradients mix the dyes. Where layers are not of one dye each, the texture stays.
+    Gradients mix the dyes; those of less strength leave charges apart, for lines between them.
+    Where layers are not of one dye each, the texture stays.
     """
     if not is_dyed(material):
         return material
     texels, _ = _enlarged(material, 1)
-    return _sheet(material, _coloured(texels, _mixed_dyes(_charges(material, texels))))
+    charges = _charges(material, texels)
+    own, mixed = _RGB[charges.dyes], _mixed_dyes(charges)
+    return _sheet(material, _coloured(texels, own + gradients * (mixed - own)))
 
 
 @costs(4)
@@ -253,6 +260,8 @@ FIELD = 5
 """The least width of a part of the field that glass divides into diamonds [texels]."""
 NAMES = tuple(DYES)
 """The names of the dyes by their numbers."""
+_RGB = np.array([dye.rgb for dye in DYES.values()], np.float64)
+"""The dyes by their numbers [0..255], shape [16, 3]."""
 
 _HATCHING = {
     **{"white": "", "light_gray": ".-", "gray": "-:", "black": "|-", "brown": "-\\"},
@@ -287,7 +296,7 @@ def _mixed_dyes(charges: Charges) -> Array:
     """The dyes that one sees at each texel, without the shading of their textures [0..255]."""
     flat = np.zeros((*charges.dyes.shape, 3))
     for number, share in charges.shares.items():
-        flat += share[..., None] * np.array(DYES[NAMES[number]].rgb)
+        flat += share[..., None] * _RGB[number]
     return flat
 
 

@@ -107,6 +107,21 @@ def test_flat_charges_have_the_colours_of_their_dyes_and_no_other() -> None:
     assert (layer.texels[..., 3] == 255).all()
 
 
+def test_a_gradient_of_half_the_strength_leaves_half_of_each_charge() -> None:
+    given, flatten = (
+        material_of("black skull:white gradient_up:purple"),
+        STEPS["material"]["flatten"],
+    )
+    none, half, full = (
+        flatten(given, gradients=strength).layers[0].texels[..., :3].astype(int)
+        for strength in (0.0, 0.5, 1.0)
+    )
+    assert np.abs(2 * half - none - full).max() <= 2
+    assert {tuple(map(int, each)) for each in none.reshape(-1, 3)} == {
+        DYES[name].rgb for name in ("black", "white")
+    }
+
+
 def test_a_texture_without_dyes_stays_as_it_is() -> None:
     plain = Material((TextureLayer(np.full((64, 64, 4), 77, np.uint8)),))
     assert STEPS["material"]["flatten"](plain) is plain
