@@ -18,14 +18,15 @@ _PAGE = """<!doctype html>
 <meta name="viewport" content="width=device-width">
 <title>Drapery: the scenes</title>
 <style>
+  html { color-scheme: light dark; background: Canvas; color: CanvasText; }
   body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 84rem;
-         padding: 0 1rem; color: #28282c; background: #fdfdfb; }
+         padding: 0 1rem; }
   main { display: grid; gap: 2rem; margin-top: 1rem;
          grid-template-columns: repeat(auto-fill, minmax(min(20rem, 100%), 1fr)); }
   h2 { margin: .4rem 0 0; font-size: 1.05rem; }
   p { margin: .1rem 0; }
   img, video { width: 100%; display: block; image-rendering: pixelated; border-radius: 4px; }
-  code { background: #eeeeea; padding: .1rem .3rem; border-radius: 3px; }
+  code { background: light-dark(#eeeeea, #2c2c30); padding: .1rem .3rem; border-radius: 3px; }
 </style>
 <h1>The scenes</h1>
 <p>Each is one command; <code>drapery scene NAME</code> alone lists its parameters.</p>
