@@ -52,7 +52,7 @@ class HallParameters(SceneParameters):
 
     breeze: float = wind_parameter(1.5, "Mean speed of the wind along the hall")
     gust: float = parameter(6.0, "Acceleration in the gust's middle", (0, 60), "m/s²")
-    grid: tuple[int, int] = grid_parameter((5, 9), "Particles across and down each flag")
+    grid: tuple[int, int] = grid_parameter((9, 17), "Particles across and down each flag")
     seed: int = seed_parameter()
 
 

@@ -88,8 +88,8 @@ def test_every_banner_of_the_cube_moves_by_itself() -> None:
 
 
 def test_the_gust_runs_down_the_hall_and_through_no_wall() -> None:
-    flags = hang_flags(hall.BLOCKS, (5, 9), ("white",), open_packs(()))
     parameters, clip = hall.HallParameters(), Clip((64, 64), 60, 20.0)
+    flags = hang_flags(hall.BLOCKS, parameters.grid, ("white",), open_packs(()))
     states = list(hall.flag_states(parameters, flags, clip))
     assert len(states[0].positions) == 32
     off = np.stack([abs(s.positions[:, -1, 0] - s.positions[:, 0, 0]) for s in states])
@@ -98,6 +98,14 @@ def test_the_gust_runs_down_the_hall_and_through_no_wall() -> None:
     assert 16 / 11 * 0.7 < middle - near < 16 / 11 * 1.4  # 16 m at 11 m/s
     assert max(abs(s.positions[..., 0]).max() for s in states) < hall.WIDTH / 2
     assert max_stretch(np.stack([s.positions for s in states]), flags.cloth) < 0.15
+    # They fold along and across, where boards would swing.
+    columns, rows = parameters.grid
+    sheets = np.stack([s.positions for s in states]).reshape(-1, 32, rows, columns, 3)
+    middle, left, right = sheets[:, :, rows // 2].swapaxes(0, 2)[[columns // 2, 0, -1]]
+    top, bottom = sheets[:, :, 0, columns // 2], sheets[:, :, -1, columns // 2]
+    for ends in (left + right, (top + bottom).swapaxes(0, 1)):
+        fold = np.linalg.norm(middle - ends / 2, axis=-1).max(axis=1)
+        assert np.median(fold) > 0.15
 
 
 def test_a_flag_streams_down_the_wind_from_its_pole() -> None:
