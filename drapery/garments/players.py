@@ -27,6 +27,8 @@ from drapery.style.skins import read_skin
 
 PICTURE = {"view": "hero", "wind": 0.5, "direction": 180.0, "gusts": 0.2}
 """Options of a player's picture unless others are given: a light wind from ahead."""
+SEEN_BEHIND = {**PICTURE, "rotation": 5}
+"""The same where something hangs behind the shoulders: from three quarters behind."""
 BEHIND = ("cape", "elytra")
 """Garments that hang from the shoulders, behind a chestplate."""
 NECK = 24
@@ -91,7 +93,8 @@ def dressed_player(
         ]
     if wearer.armor is not None and "chestplate" in parse_armor(wearer.armor):
         worn = [_over_chestplate(each) if each.name in BEHIND else each for each in worn]
-    given: dict[str, Any] = {"name": "player", "piece": (), "picture": PICTURE, "folder": folder}
+    picture = SEEN_BEHIND if any(each.name in BEHIND for each in worn) else PICTURE
+    given: dict[str, Any] = {"name": "player", "piece": (), "picture": picture, "folder": folder}
     try:
         return Garment(**given, wearer=wearer, over=tuple(worn))
     except ValidationError as error:

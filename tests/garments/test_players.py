@@ -218,6 +218,15 @@ def test_what_is_worn_is_cloth_of_its_own() -> None:
     assert all(piece.texture is not None and piece.texture.front for piece in wings)
 
 
+def test_what_hangs_behind_a_player_is_seen() -> None:
+    """A player from the front hides its cape."""
+    behind = ({"wear": ("cape",)}, {"cape": "cape.png"}, {"elytra": True})
+    turned = [dressed_player(make_wearer(), **words).settings().rotation for words in behind]
+    assert turned == [find_garment("cape").settings().rotation] * 3
+    for words in ({}, {"wear": ("coat",)}):
+        assert dressed_player(make_wearer(), **words).settings().rotation == 0
+
+
 @pytest.mark.parametrize("motion", ["run", "sneak", "sit"])
 def test_a_cape_stays_outside_a_player_that_moves(motion: str) -> None:
     cape = find_garment("cape")
