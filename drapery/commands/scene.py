@@ -1,6 +1,6 @@
 """`drapery scene`: the ready-made scenes, each by one command."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Annotated
 
 import typer
@@ -19,7 +19,9 @@ def run(
     ] = None,
     out: Annotated[
         str | None,
-        typer.Option("-o", "--out", metavar="TARGET", help="A picture, animation or folder."),
+        typer.Option(
+            "-o", "--out", metavar="TARGET", help="A picture, animation, folder or 3-D file (.glb)."
+        ),
     ] = None,
     show_list: Annotated[bool, typer.Option("--list", help="List all scenes.")] = False,
     parameter: Annotated[
@@ -69,18 +71,49 @@ def _play(
     from drapery.settings import OPTIONS, frame_count
 
     scene, words = find_scene(name), _words(parameters)
-    is_still = check_target(out, "still", "loop").kind() == "still"
+    kind = check_target(out, "still", "loop", "model").kind()
     own = scene.clip
     fps = own.fps if fps is None else fps
     length = own.count / own.fps if seconds is None else seconds
     clip = Clip(OPTIONS["size"].parse(size), frame_count(length, fps), fps)
     with compile_notice(), progress("frames", clip.count) as tick:
         given = scene.parameters(words)
-        drawn = scene_frames(scene, given, clip, backend, last=is_still, style=style)
-        if is_still:
+        if kind == "model":
+            _refuse_looks(out, style, backend)
+            _save_model(scene.play(given, clip), name, out, fps)
+            return
+        drawn = scene_frames(scene, given, clip, backend, last=kind == "still", style=style)
+        if kind == "still":
             next(drawn).save(out)
         else:
             save_animation(drawn, fps, out, total=clip.count, progress=tick)
+
+
+def _refuse_looks(out: str, style: Sequence[str], backend: str) -> None:
+    """Raise OptionError for options that change pictures alone."""
+    from drapery.errors import OptionError
+
+    given = {"style": bool(style), "backend": backend != "auto"}
+    for option in (each for each, is_given in given.items() if is_given):
+        raise OptionError(f"{out}: {option} does nothing for a 3-D file; leave it out")
+
+
+def _save_model(pictures: Iterator[object], name: str, out: str, fps: float) -> None:
+    """Write the scenes of a loop, or in a format without motion the last of them."""
+    from collections import deque
+
+    from drapery.errors import OptionError
+    from drapery.file_formats import format_of
+    from drapery.render import Scene, save_scenes
+
+    def checked() -> Iterator[Scene]:
+        for picture in pictures:
+            if not isinstance(picture, Scene):
+                raise OptionError(f"scene {name} is several pictures, no 3-D scene; use .png")
+            yield picture
+
+    is_moving = format_of(out, "model").moving
+    save_scenes(checked() if is_moving else deque(checked(), maxlen=1), out, fps=fps)
 
 
 def _as_parameters(arguments: list[str]) -> list[str]:

@@ -80,7 +80,9 @@ class Flags:
         index = np.arange(len(state.positions), dtype=np.int32) % len(self.materials)
         piece = Piece(self.shell, thickness * SCALE, SCALE, FLAG_SIZE)
         thin = piece, state.positions
-        return ClothModel(piece.mesh(state.positions), self.materials, index, thin)
+        return ClothModel(
+            piece.mesh(state.positions), self.materials, index, thin=thin, name="banner/cloth"
+        )
 
 
 def meeting(
@@ -162,7 +164,7 @@ def wood_model(banner_blocks: Sequence[BannerBlock], packs: Packs) -> Model:
         meshes[0].triangles,
         meshes[0].uvs,
     )
-    return Model(mesh, (wood_material(packs),))
+    return Model(mesh, (wood_material(packs),), name="banner/pole")
 
 
 def design_materials(designs: Sequence[str], packs: Packs) -> tuple[Material, ...]:

@@ -83,7 +83,7 @@ def walker(
 ) -> tuple[Model, ...]:
     """The figure, its shadow and the ground at a time of its walk [s]."""
     passed = np.array([0.0, 0.0, -(gait.speed * time % PERIOD)])
-    figure = Model(figure_mesh(gait.poses(time)), (skin,))
+    figure = Model(figure_mesh(gait.poses(time)), (skin,), name="player")
     return (*moved(causeway, passed), shadow((0, 0), 0.5), figure)
 
 

@@ -1,5 +1,6 @@
 """Scenes on the command line: listed, set by options, in a gallery; errors in one line."""
 
+import json
 import re
 from html import escape
 
@@ -46,6 +47,36 @@ def test_a_sail_follows_its_script(drapery, tmp_path) -> None:
     assert code == 0
     with Image.open(tmp_path / "sail.gif") as image:
         assert (image.n_frames, image.size) == (4, (48, 48))
+
+
+def test_a_scene_is_a_3d_file_whose_parts_have_names_and_move(drapery, tmp_path) -> None:
+    path, clip = tmp_path / "hall.glb", ("--seconds", "0.8", "--fps", "10")
+    assert drapery("scene", "hall", *clip, "-o", path)[0] == 0
+    data = path.read_bytes()
+    length = int.from_bytes(data[12:16], "little")
+    document = json.loads(data[20 : 20 + length])
+    nodes = [node["name"] for node in document["nodes"]]
+    assert {"banner/pole", "banner/cloth", "camera", "block/oak_planks"} < set(nodes)
+    (motion,) = document["animations"]
+    assert motion["name"] == "wave"
+    assert {nodes[each["target"]["node"]] for each in motion["channels"]} == {"banner/cloth"}
+    assert drapery("scene", "flag", *clip, "-o", tmp_path / "flag.obj")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "fault"),
+    [
+        (["fold", "-o", "x.glb"], "scene fold is several pictures, no 3-D scene; use .png"),
+        (["hall", "--style", "ink", "-o", "x.glb"], "style does nothing for a 3-D file"),
+    ],
+)
+def test_what_a_3d_file_cannot_hold_is_refused(
+    drapery, tmp_path, monkeypatch, words, fault
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, _, err = drapery("scene", *words, "--seconds", "0.1")
+    assert code == 2 and fault in err and err.strip().count("\n") == 0
+    assert not (tmp_path / "x.glb").exists()
 
 
 @pytest.mark.parametrize(
