@@ -28,14 +28,18 @@ _COMMENT = re.compile(r"^\s*(//.*|/\*\*([^*]|\*(?!/))*\*/)\n", re.MULTILINE)
 
 
 def bundled_module(
-    entry: Path = ENTRY, public: Sequence[str] = PUBLIC, places: Mapping[str, str] | None = None
+    entry: Path = ENTRY,
+    public: Sequence[str] = PUBLIC,
+    places: Mapping[str, str] | None = None,
+    more: Sequence[Path] = (),
 ) -> str:
-    """The text of one module that has all that a module imports, without comments.
+    """The text of one module that has all that a module, and `more` of them, import, without
+    comments.
 
     places: see `beside` and `within`; a page that holds its files itself has none.
     """
     imports: dict[Path, list[Path]] = {}
-    unseen = [entry.resolve()]
+    unseen = [each.resolve() for each in (entry, *more)]
     while unseen:
         module = unseen.pop()
         if module not in imports:

@@ -79,9 +79,9 @@ def designer_module() -> str:
         "ITEMS": dict(_pattern_items()),
         "PACK": {kind: [f"entity/{kind}/{kind}_base", f"entity/{kind}_base"] for kind in KINDS},
         "TEXTS": english(),
-        "STYLES": {"sheet": _styles(DESIGNER_PATH.with_name("designer.css"))},
+        "STYLES": {n: _styles(DESIGNER_PATH.with_name(f"{n}.css")) for n in ("editor", "designer")},
     }
-    return _module(("drapery.banner", "and designer.css"), tables)
+    return _module(("drapery.banner", "and the sheets beside it"), tables)
 
 
 def _pattern_items() -> Iterator[tuple[str, str | None]]:

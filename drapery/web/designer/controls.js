@@ -40,7 +40,10 @@ export class PatternGrid {
     this.field = make("input", {
       type: "search", class: "find", placeholder: words.find, "aria-label": words.find,
       oninput: () => this.search(),
-      onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "Enter" && first(),
+      onkeydown: (/** @type {KeyboardEvent} */ event) => {
+        if (event.key === "Enter") first();
+        else if (event.key === "Escape" && !this.field.value) this.field.blur(); // the browser empties one with words
+      },
     });
     this.cells[0].button.tabIndex = 0;
     roving(this.grid, () => this.shownButtons());

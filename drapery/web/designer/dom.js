@@ -18,12 +18,11 @@ const SHAPES = {
   undo: "M9 14 4 9l5-5M4 9h10a6 6 0 0 1 0 12h-3",
   redo: "m15 14 5-5-5-5M20 9H10a6 6 0 0 0 0 12h3",
   dice: "M4 4h16v16H4zM8.5 8.5h.01M15.5 8.5h.01M12 12h.01M8.5 15.5h.01M15.5 15.5h.01",
+  plus: "M12 5v14M5 12h14",
   clear: "M4 7h16M9 7V4h6v3M6 7l1 13h10l1-13M10 11v5M14 11v5",
   eye: "M2 12s4-7 10-7 10 7 10 7-4 7-10 7S2 12 2 12zM12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6",
   hidden: "M3 3l18 18M10.6 5.1A10 10 0 0 1 12 5c6 0 10 7 10 7a17 17 0 0 1-3 3.6M6.5 6.6A16 16 0 0 0 2 12s4 7 10 7a10 10 0 0 0 4.5-1.1",
   double: "M8 8h12v12H8zM4 16V4h12",
-  up: "M12 19V5M5 12l7-7 7 7",
-  down: "M12 5v14M5 12l7 7 7-7",
   grip: "M9 6h.01M15 6h.01M9 12h.01M15 12h.01M9 18h.01M15 18h.01",
   play: "M7 4v16l13-8z",
   pause: "M8 5v14M16 5v14",
@@ -73,6 +72,16 @@ export function roving(holder, items, isList = false) {
     event.preventDefault();
     choose(all[at + steps[event.key]]);
   });
+}
+
+/** What the browser keeps; null where it keeps nothing.
+ * @template T @param {() => T} use @returns {T | null} */
+export function kept(use) {
+  try {
+    return use();
+  } catch {
+    return null;
+  }
 }
 
 /** Draw a picture into a canvas, which gets its size.

@@ -7,17 +7,15 @@ import { Element, define } from "../component/places.js";
 import { fileBytes } from "../component/shared.js";
 import { TABLES } from "../component/tables.js";
 import { FormError, VERSIONS, notKept, plainText, writeCommand } from "./commands.js";
-import { PatternGrid, dyeButtons, menu, numberField, segments } from "./controls.js";
-import { drawPixels, icon, iconButton, make } from "./dom.js";
+import { menu, numberField } from "./controls.js";
+import { drawPixels, icon, kept, make } from "./dom.js";
+import { ENGLISH, Editor } from "./editor.js";
 import { Faces } from "./faces.js";
-import { LayerList } from "./layers.js";
 import { materials } from "./loom.js";
-import {
-  MOTION, History, changedLayer, duplicatedLayer, movedLayer, shownOf, withLayer, withoutLayer, workOf, writeHash, writeShorthand,
-} from "./model.js";
+import { MOTION, History, shownOf, workOf, writeHash, writeShorthand } from "./model.js";
 import { readPack } from "./pack.js";
 import { readHash, readPasted } from "./pasted.js";
-import { LANGUAGES, LIMITS, STYLES, TEXTS, TITLES } from "./tables.js";
+import { LANGUAGES, STYLES } from "./tables.js";
 
 const START = "yellow gradient:red gradient_up:magenta flower:white circle:orange curly_border:red";
 const VIEWS = ["front", "back", "iso", "hero"];
@@ -30,7 +28,6 @@ const FOUND = { globe: "fromCartographer", piglin: "fromBastion", flow: "fromTri
 const NARROW = 704; // a page so narrow hides the motion until it is wanted [px]
 const STORED = "drapery-designer"; // the key of the history in the browser's storage, before the page's path
 const LANGUAGE = ":language";
-const TOLD = 6000; // how long a line of news stands [ms]
 const MOST_NAMED = 6; // of what a pack lacks
 const CHAT = 256; // the longest line of the game's chat [characters]
 
@@ -38,57 +35,34 @@ const CHAT = 256; // the longest line of the game's chat [characters]
 /** @typedef {import("./model.js").Shown} Shown */
 /** @typedef {import("./model.js").Motion} Motion */
 
-const ENGLISH = { code: "en", texts: TEXTS, dyes: {}, patterns: {} };
-
-/** @param {string} text */
-const capital = (text) => text[0].toUpperCase() + text.slice(1).replaceAll("_", " ");
-
-/** What the browser keeps; null where it keeps nothing.
- * @template T @param {() => T} use @returns {T | null} */
-function kept(use) {
-  try {
-    return use();
-  } catch {
-    return null;
-  }
-}
-
 const readJson = async (/** @type {string} */ name) => JSON.parse(new TextDecoder().decode(await fileBytes(name)));
 
 export class DraperyDesigner extends Element {
   static observedAttributes = ["design", "wind"];
 
-  /** @type {History} */
-  #history = new History(readPasted(START, BREEZE).work);
-  /** @type {number | "field" | null} */
-  #chosen = null;
-  #dye = "black";
+  /** @type {Editor} */
+  #editor = new Editor(new History(readPasted(START, BREEZE).work), {
+    openFaces: (kind) => Faces.open(kind, this.#pack?.[/** @type {"banner" | "shield"} */ (kind)]),
+    show: () => this.#show(),
+    announce: () => this.#announce(),
+  });
   #version = VERSIONS[0];
-  /** @type {Record<string, Faces | null>} */
-  #every = {}; // the faces of banners and shields
   /** @type {Awaited<ReturnType<typeof readPack>> | null} */
   #pack = null;
   /** @type {Record<string, any>} */
   #ui = {};
   #built = false;
-  /** @type {Record<string, string>} */
-  #words = {}; // by which patterns are found
-  /** @type {{ code: string, texts: Record<string, string>, dyes: Record<string, string>, patterns: Record<string, string> }} */
-  #language = ENGLISH;
-  #frame = 0;
-  /** @type {ReturnType<typeof setTimeout> | undefined} */
-  #telling = undefined;
 
   constructor() {
     super();
     const styles = new CSSStyleSheet();
-    styles.replaceSync(STYLES.sheet);
+    styles.replaceSync(`${STYLES.editor} ${STYLES.designer}`);
     this.attachShadow({ mode: "open" }).adoptedStyleSheets = [styles];
   }
 
   // The design, as the text that links hold. Any form that is read can be set. Throws DesignError.
   get design() {
-    return writeShorthand(shownOf(this.#history.work));
+    return writeShorthand(shownOf(this.#editor.work));
   }
 
   set design(text) {
@@ -100,17 +74,16 @@ export class DraperyDesigner extends Element {
    * @param {string | Shown} design */
   setDesign(design) {
     const text = typeof design === "string" ? design : JSON.stringify({ ...design, layers: design.layers.map(({ pattern, dye }) => ({ pattern, color: dye })) });
-    const { work, left } = readPasted(text, this.#history.work.motion);
-    this.#chosen = null;
-    this.#change(work);
+    const { work, left } = readPasted(text, this.#editor.work.motion);
+    this.#editor.begin(work);
     return left;
   }
 
   /** The design in all forms: as an object, as text, as a link's `#…`, and as commands by their version;
    * null for a version that cannot hold it. */
   getDesign() {
-    const { item } = this.#history.work;
-    const shown = shownOf(this.#history.work);
+    const { item } = this.#editor.work;
+    const shown = shownOf(this.#editor.work);
     const commands = Object.fromEntries(VERSIONS.map((version) => [version, this.#command(version).text]));
     const { name, lore } = item;
     return { ...shown, text: this.design, hash: writeHash(shown), commands, name: plainText(name), lore: lore.map(plainText), count: item.count };
@@ -132,13 +105,13 @@ export class DraperyDesigner extends Element {
     if (!this.#built || now === null || now === before) return;
     this.#try(() => {
       if (name === "design") this.setDesign(now);
-      else this.#change(this.#moved({ wind: numberOf(name, now) ?? MOTION.wind }));
+      else this.#editor.change(this.#moved({ wind: numberOf(name, now) ?? MOTION.wind }));
     });
   }
 
   /** @param {Partial<Motion>} motion */
   #moved(motion) {
-    const { work } = this.#history;
+    const { work } = this.#editor;
     return { ...work, motion: { ...work.motion, ...motion } };
   }
 
@@ -149,7 +122,7 @@ export class DraperyDesigner extends Element {
     } catch (error) {
       if (!(error instanceof Error)) throw error;
       this.dispatchEvent(new CustomEvent("drapery-error", { detail: `drapery: ${error.message}`, bubbles: true }));
-      this.#tell(error.message);
+      this.#editor.tell(error.message);
     }
   }
 
@@ -157,30 +130,19 @@ export class DraperyDesigner extends Element {
 
   async #start() {
     this.#built = true;
-    [this.#words] = await Promise.all([readJson("words.bin").catch(() => ({})), this.#open("banner"), this.#speak(this.#wanted())]);
+    const editor = this.#editor;
+    [editor.words] = await Promise.all([readJson("words.bin").catch(() => ({})), editor.open("banner"), this.#speak(this.#wanted())]);
     const own = this.getAttribute("design");
-    const breeze = { ...BREEZE, ...this.#every.banner?.header.own };
-    this.#try(() => (this.#history = new History(readPasted(own ?? START, breeze).work)));
+    const breeze = { ...BREEZE, ...editor.every.banner?.header.own };
+    this.#try(() => (editor.history = new History(readPasted(own ?? START, breeze).work)));
     const before = History.read(kept(() => sessionStorage.getItem(STORED + location.pathname)));
-    if (before && own === null) this.#history = before;
-    this.#try(() => (this.#history.work = this.#moved({ wind: numberOf("wind", this.getAttribute("wind")) ?? this.#history.work.motion.wind })));
+    if (before && own === null) editor.history = before;
+    this.#try(() => (editor.history.work = this.#moved({ wind: numberOf("wind", this.getAttribute("wind")) ?? editor.work.motion.wind })));
     this.#build();
     if (this.#hash) this.#follow();
     this.#try(() => takeOver(this, ["design"]));
-    this.#show();
+    editor.show();
     this.dispatchEvent(new CustomEvent("drapery-designer-ready", { bubbles: true }));
-  }
-
-  // The faces of what is edited; those of banners until others are there.
-  get #faces() {
-    return this.#every[this.#history.work.kind] ?? this.#every.banner;
-  }
-
-  async #open(/** @type {string} */ kind) {
-    const pack = this.#pack;
-    this.#every[kind] ??= null;
-    const faces = await Faces.open(kind, pack?.[/** @type {"banner" | "shield"} */ (kind)]).catch(() => null);
-    if (pack === this.#pack) this.#every[kind] = faces;
   }
 
   // The code of the language: that of the attribute, chosen before, or one that the user reads.
@@ -192,9 +154,9 @@ export class DraperyDesigner extends Element {
   // Take the texts of a language; English stays where there is none.
   async #speak(/** @type {string} */ code) {
     try {
-      this.#language = Object.hasOwn(LANGUAGES, code) ? { code, ...(await readJson(`${code}.bin`)) } : ENGLISH;
+      this.#editor.language = Object.hasOwn(LANGUAGES, code) ? { code, ...(await readJson(`${code}.bin`)) } : ENGLISH;
     } catch {
-      this.#language = ENGLISH;
+      this.#editor.language = ENGLISH;
     }
   }
 
@@ -202,7 +164,7 @@ export class DraperyDesigner extends Element {
     kept(() => localStorage.setItem(STORED + LANGUAGE, code));
     await this.#speak(code);
     this.#build();
-    this.#show();
+    this.#editor.show();
     this.#ui.language.focus();
   }
 
@@ -212,152 +174,40 @@ export class DraperyDesigner extends Element {
 
   // Show the design of the page's address.
   #follow = () => {
-    if (!this.#hash || this.#hash === writeHash(shownOf(this.#history.work))) return;
-    this.#try(() => this.#change(workOf(readHash(this.#hash), {}, this.#history.work.motion)));
+    if (!this.#hash || this.#hash === writeHash(shownOf(this.#editor.work))) return;
+    this.#try(() => this.#editor.change(workOf(readHash(this.#hash), {}, this.#editor.work.motion)));
   };
 
-  // Edits
-
-  /** @param {Work} work @param {string} [key] */
-  #change(work, key) {
-    if (!this.#history.change(work, key) || !this.#built) return;
-    this.#show();
-    this.#announce();
-  }
-
   #announce() {
-    kept(() => sessionStorage.setItem(STORED + location.pathname, this.#history.write()));
+    kept(() => sessionStorage.setItem(STORED + location.pathname, this.#editor.history.write()));
     const forms = this.getDesign();
     if (this.hasAttribute("linked")) history.replaceState(history.state, "", `#${forms.hash}`);
     this.dispatchEvent(new CustomEvent("drapery-change", { detail: forms, bubbles: true }));
   }
 
-  #go(/** @type {"undo" | "redo"} */ way) {
-    if (!this.#history[way]()) return;
-    this.#chosen = null;
-    this.#tell(this.#say(way));
-    this.#show();
-    this.#announce();
-  }
-
-  #lay(/** @type {string} */ pattern) {
-    const { work } = this.#history;
-    if (typeof this.#chosen === "number") this.#change(changedLayer(work, this.#chosen, { pattern }));
-    else if (work.layers.length >= TABLES.maxLayers) this.#tell(this.#say("tooMany", { most: TABLES.maxLayers }));
-    else {
-      this.#tell(this.#say("layerIn", { pattern: this.#patternTitle(pattern), dye: this.#dyeTitle(this.#dye) }));
-      this.#change(withLayer(work, { pattern, dye: this.#dye }));
-    }
-  }
-
-  #dyeIt(/** @type {string} */ dye) {
-    const { work } = this.#history;
-    if (this.#chosen === "field") this.#change({ ...work, base: dye });
-    else if (this.#chosen !== null) this.#change(changedLayer(work, this.#chosen, { dye }));
-    else {
-      this.#dye = dye;
-      this.#show();
-    }
-  }
-
-  /** @type {import("./layers.js").Acts} */
-  #acts = {
-    select: (at) => {
-      this.#chosen = at;
-      this.#show();
-    },
-    move: (from, to) => {
-      if (this.#chosen === from) this.#chosen = to;
-      this.#change(movedLayer(this.#history.work, from, to));
-    },
-    hide: (at) => this.#change(changedLayer(this.#history.work, at, { hidden: !this.#history.work.layers[at].hidden })),
-    remove: (at) => {
-      this.#chosen = null;
-      this.#tell(`${this.#say("delete")}: ${this.#patternTitle(this.#history.work.layers[at].pattern)}`);
-      this.#change(withoutLayer(this.#history.work, at));
-    },
-    double: (at) => {
-      if (this.#history.work.layers.length >= TABLES.maxLayers) this.#tell(this.#say("tooMany", { most: TABLES.maxLayers }));
-      else this.#change(duplicatedLayer(this.#history.work, at));
-    },
-  };
-
-  #random() {
-    if (!this.#faces) return;
-    this.#chosen = null;
-    const { item, motion, kind } = this.#history.work;
-    this.#change(workOf({ ...this.#faces.random(), kind }, item, motion));
-  }
-
-  // Words
-
-  /** @param {string} key @param {Record<string, any>} [values] @returns {string} */
-  #say(key, values = {}) {
-    const text = this.#language.texts[key] ?? /** @type {Record<string, string>} */ (TEXTS)[key];
-    return text.replace(/\{(\w+)\}/g, (_, name) => String(values[name] ?? ""));
-  }
-
-  // Arrow functions, because others call them too.
-  #dyeTitle = (/** @type {string} */ dye) => this.#language.dyes[dye] ?? capital(dye);
-
-  // The name in a word or two.
-  #caption = (/** @type {string} */ pattern) => this.#language.patterns[pattern] ?? capital(pattern);
-
-  // In English both the plain and the heraldic name.
-  #patternTitle = (/** @type {string} */ pattern) => {
-    const [plain, heraldic] = [this.#caption(pattern), TITLES[pattern]];
-    return this.#language === ENGLISH && heraldic && heraldic !== plain ? `${plain} / ${heraldic}` : plain;
-  };
-
-  #tell(/** @type {string} */ text) {
-    const { status } = this.#ui;
-    if (!status) return;
-    status.textContent = text;
-    clearTimeout(this.#telling);
-    this.#telling = setTimeout(() => (status.textContent = ""), TOLD);
-  }
-
   // The page
 
   #build() {
-    const say = this.#say.bind(this);
-    const names = this.#faces?.patterns.filter((/** @type {string} */ name) => Object.hasOwn(TITLES, name)) ?? [];
-    const patterns = names.map((/** @type {string} */ name) => ({ name, title: this.#patternTitle(name), caption: this.#caption(name), words: this.#words[name] ?? name }));
-    const titles = { dye: this.#dyeTitle, pattern: this.#patternTitle };
-    const ui = {
-      status: make("p", { class: "status", role: "status" }),
-      dyes: dyeButtons((dye) => this.#dyeIt(dye), { label: say("dyes"), titleOf: this.#dyeTitle }),
-      grid: patterns.length ? new PatternGrid(patterns, (name) => this.#lay(name), { label: say("patterns"), find: say("find"), nothing: say("noPatterns") }) : null,
-      layers: new LayerList(this.#acts, say, titles),
-      undo: iconButton("undo", say("undo"), () => this.#go("undo"), { "aria-keyshortcuts": "Control+Z" }),
-      redo: iconButton("redo", say("redo"), () => this.#go("redo"), { "aria-keyshortcuts": "Control+Y" }),
-      kind: segments(`${say("banner")} / ${say("shield")}`, { banner: say("banner"), shield: say("shield") }, (kind) => this.#change({ ...this.#history.work, kind })),
-      heading: make("h2", { class: "mode" }),
-      hint: make("span", { class: "hint" }),
-      language: make("select", { class: "language", "aria-label": say("language"), onchange: () => this.#changeLanguage(ui.language.value) },
-        ...Object.entries({ en: "English", ...LANGUAGES }).map(([value, name]) => make("option", { value, selected: value === this.#language.code }, name))),
-      done: make("button", { type: "button", class: "quiet", onclick: () => this.#acts.select(null) }, say("add")),
-    };
-    this.#ui = ui;
+    const { say } = this.#editor;
+    this.#editor.build();
+    const { parts } = this.#editor;
+    const language = make("select", { class: "language", "aria-label": say("language"), onchange: () => this.#changeLanguage(language.value) },
+      ...Object.entries({ en: "English", ...LANGUAGES }).map(([value, name]) => make("option", { value, selected: value === this.#editor.language.code }, name)));
+    this.#ui = { language };
     const bar = make("header", { class: "bar" },
-      make("h1", {}, say("title")), ui.status,
-      make("div", { class: "tools", role: "toolbar", "aria-label": say("title") }, ui.undo, ui.redo,
-        iconButton("dice", say("random"), () => this.#random()),
-        iconButton("clear", say("clear"), () => this.#change({ ...this.#history.work, layers: [] })), ui.kind.whole, ui.language));
-    const dyes = make("section", { class: "dyes", "aria-label": say("dyes") },
-      make("div", { class: "mode-line" }, ui.heading, ui.hint, ui.done), ui.dyes.group);
-    const made = ui.grid ? make("section", { class: "make", "aria-label": say("patterns") },
-      make("div", { class: "search" }, make("h2", {}, say("patterns")), ui.grid.field, ui.grid.count), ui.grid.nothing, ui.grid.grid) : null;
-    const app = make("div", { class: "app", lang: this.#language.code, onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event), ondragover: (/** @type {DragEvent} */ event) => event.preventDefault(), ondrop: this.#drop },
+      make("h1", {}, say("title")), parts.status,
+      make("div", { class: "tools", role: "toolbar", "aria-label": say("title") }, parts.undo, parts.redo, parts.random, parts.clear, parts.kind, language));
+    const dyes = make("section", { class: "dyes", "aria-label": say("dyes") }, ...parts.dyes);
+    const made = parts.patterns && make("section", { class: "make", "aria-label": say("patterns") }, ...parts.patterns);
+    const app = make("div", { class: "app", lang: this.#editor.language.code, onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event), ondragover: (/** @type {DragEvent} */ event) => event.preventDefault(), ondrop: this.#drop },
       bar, this.#stage(), dyes, made, this.#side());
     /** @type {ShadowRoot} */ (this.shadowRoot).replaceChildren(app);
   }
 
   #stage() {
-    const say = this.#say.bind(this);
-    const flat = make("canvas", { class: "flat" });
+    const { say } = this.#editor;
     const banner = Object.assign(new DraperyBanner(), { pack: this.#pack });
-    banner.append(flat);
+    banner.append(this.#editor.parts.flat);
     const fault = make("p", { class: "fault", role: "alert", hidden: true });
     banner.addEventListener("drapery-error", (event) => {
       event.stopPropagation();
@@ -368,25 +218,22 @@ export class DraperyDesigner extends Element {
     banner.addEventListener("drapery-pause", () => this.#showPause());
     const number = (/** @type {"wind" | "direction" | "daylight"} */ name, /** @type {string} */ unit, step = 0.5) => {
       const [least, most] = TABLES.bounds[name];
-      const change = (/** @type {number} */ value) => this.#change(this.#moved({ [name]: value }), name);
+      const change = (/** @type {number} */ value) => this.#editor.change(this.#moved({ [name]: value }), name);
       return numberField({ name: say(name), unit, bounds: [least, most], step, error: say("notNumber", { least, most }), change });
     };
     const among = (/** @type {"placement" | "fabric" | "view"} */ name, /** @type {string[]} */ values) =>
-      menu(say(name), Object.fromEntries(values.map((each) => [each, say(each)])), (value) => this.#change(this.#moved({ [name]: value })));
+      menu(say(name), Object.fromEntries(values.map((each) => [each, say(each)])), (value) => this.#editor.change(this.#moved({ [name]: value })));
     const numbers = { wind: number("wind", say("unitSpeed")), direction: number("direction", say("unitDegrees")), daylight: number("daylight", "", 0.05) };
     const menus = { placement: among("placement", TABLES.placements), fabric: among("fabric", TABLES.fabrics), view: among("view", VIEWS) };
     const [fields, choices] = [numbers, menus].map((each) => Object.values(each).map(({ whole }) => whole));
     const sky = make("div", { class: "sky" }, banner, pause);
-    Object.assign(this.#ui, { banner, flat, fault, pause, sky, motion: { ...numbers, ...menus } });
+    Object.assign(this.#ui, { banner, fault, pause, sky, motion: { ...numbers, ...menus } });
     return make("section", { class: "stage", "aria-label": say("stage") }, sky, fault,
       make("details", { class: "motion", open: this.clientWidth > NARROW }, make("summary", {}, say("motion")), ...fields, make("div", { class: "menus" }, ...choices)));
   }
 
   #side() {
-    const say = this.#say.bind(this);
-    const { layers } = this.#ui;
-    const count = make("span", { class: "hint" });
-    const empty = make("p", { class: "hint" }, say("noLayers"));
+    const { say } = this.#editor;
     const version = make("select", { class: "version", "aria-label": say("version"), onchange: () => {
       this.#version = version.value;
       this.#showCommand();
@@ -407,9 +254,9 @@ export class DraperyDesigner extends Element {
     const without = make("button", { type: "button", class: "without", hidden: !this.#pack, onclick: () => this.#wear(null, "") }, say("withoutPack"));
     const openPack = make("button", { type: "button", onclick: () => chosen.click() }, say("openPack"));
     const read = make("button", { type: "button", onclick: () => this.#read(field.value) }, say("read"));
-    Object.assign(this.#ui, { count, empty, version, command, about, copy, field, wrong, loom, film, pack, without });
+    Object.assign(this.#ui, { version, command, about, copy, field, wrong, loom, film, pack, without });
     return make("section", { class: "side", "aria-label": `${say("layers")}, ${say("share")}` },
-      make("div", { class: "panel" }, make("div", { class: "head" }, make("h2", {}, say("layers")), count), empty, layers.list),
+      make("div", { class: "panel" }, ...this.#editor.parts.layers),
       make("div", { class: "panel" }, make("h2", {}, say("share")),
         make("div", { class: "row" }, version, copy), command, about,
         make("div", { class: "row" }, link, png, film, embed)),
@@ -420,15 +267,15 @@ export class DraperyDesigner extends Element {
   #versionTitle(/** @type {string} */ id) {
     /** @type {Record<string, string>} */
     const ranges = { "1.21.5": "1.21.5+", "1.20.5": "1.20.5 – 1.21.4", 1.13: "1.13 – 1.20.4", 1.8: "1.8 – 1.12" };
-    return ranges[id] ? this.#say("java", { version: ranges[id] }) : this.#say("bedrock");
+    return ranges[id] ? this.#editor.say("java", { version: ranges[id] }) : this.#editor.say("bedrock");
   }
 
   #press(/** @type {KeyboardEvent} */ event) {
     const isTyping = event.target instanceof HTMLElement && event.target.matches("input:not([type=range]), textarea, select");
     const key = event.key.toLowerCase();
-    if ((event.ctrlKey || event.metaKey) && !isTyping && (key === "z" || key === "y")) this.#go(key === "y" || event.shiftKey ? "redo" : "undo");
-    else if (key === "/" && !isTyping) this.#ui.grid?.field.focus();
-    else if (key === "escape" && !isTyping && this.#chosen !== null) this.#acts.select(null);
+    if ((event.ctrlKey || event.metaKey) && !isTyping && (key === "z" || key === "y")) this.#editor.go(key === "y" || event.shiftKey ? "redo" : "undo");
+    else if (key === "/" && !isTyping) this.#editor.parts.find?.focus();
+    else if (key === "escape" && !isTyping && this.#editor.chosen !== null) this.#editor.acts.select(null);
     else return;
     event.preventDefault();
   }
@@ -436,74 +283,34 @@ export class DraperyDesigner extends Element {
   // Showing
 
   #show() {
-    const { work } = this.#history;
-    const [ui, faces] = [this.#ui, this.#faces];
-    const shown = shownOf(work);
+    const { work } = this.#editor;
+    const ui = this.#ui;
     const { motion } = work;
-    if (typeof this.#chosen === "number" && !work.layers[this.#chosen]) this.#chosen = null;
     ui.fault.hidden = true;
-    if (!(work.kind in this.#every)) this.#open(work.kind).then(() => this.#show());
     for (const [name, value] of Object.entries(this.#attributes()))
       if (ui.banner.getAttribute(name) !== value) ui.banner[name] = value;
     for (const [name, control] of Object.entries(ui.motion)) control.show(motion[/** @type {keyof Motion} */ (name)]);
     for (const name of OF_CLOTH) ui.motion[name].whole.hidden = work.kind === "shield";
     ui.pause.hidden = ui.film.disabled = work.kind === "shield";
     ui.sky.style.setProperty("--day", String(motion.daylight));
-    ui.kind.show(work.kind);
-    ui.undo.disabled = !this.#history.past.length;
-    ui.redo.disabled = !this.#history.future.length;
-    ui.count.textContent = this.#say("layersCount", { count: work.layers.length, most: TABLES.maxLayers }) + (shown.layers.length > LIMITS.loomLayers ? ` · ${this.#say("loomNot", { most: LIMITS.loomLayers })}` : "");
-    ui.empty.hidden = work.layers.length > 0;
-    this.#showMode();
     this.#showPause();
     this.#showCommand();
-    this.#showLoom(shown);
-    if (!faces) return;
-    ui.layers.show(work, this.#chosen, faces);
-    if (!this.#frame) this.#frame = requestAnimationFrame(() => this.#showFaces());
+    this.#showLoom(shownOf(work));
   }
 
   /** What the live element has; null for what is the package's own.
    * @returns {Record<string, string | null>} */
   #attributes() {
-    const { motion, kind } = this.#history.work;
-    const own = this.#every.banner?.header.own ?? {};
+    const { motion, kind } = this.#editor.work;
+    const own = this.#editor.every.banner?.header.own ?? {};
     const changed = CHOSEN.map((name) => [name, motion[name] === own[name] ? null : String(motion[name])]);
     const moved = { kind: motion.placement, wind: String(motion.wind), direction: String(motion.direction) };
     return { design: this.design, ...(kind === "shield" ? { kind } : moved), ...Object.fromEntries(changed) };
   }
 
-  #showMode() {
-    const { work } = this.#history;
-    const ui = this.#ui;
-    const at = this.#chosen;
-    const layer = typeof at === "number" ? work.layers[at] : null;
-    const dye = layer?.dye ?? (at === "field" ? work.base : this.#dye);
-    ui.heading.textContent = layer ? this.#say("change", { number: Number(at) + 1, pattern: this.#caption(layer.pattern) }) : this.#say(at === "field" ? "field" : "add");
-    ui.hint.textContent = this.#say(layer ? "changeHint" : at === "field" ? "fieldHint" : "addHint");
-    ui.done.hidden = at === null;
-    ui.dyes.show(dye);
-  }
-
-  // Previews of all patterns, once a frame.
-  #showFaces() {
-    this.#frame = 0;
-    const [ui, faces] = [this.#ui, this.#faces];
-    const { work } = this.#history;
-    if (!faces || !ui.grid) return;
-    const known = work.layers.map((layer, at) => ({ ...layer, at })).filter(({ hidden, pattern }) => !hidden && faces.patterns.includes(pattern));
-    const chosen = this.#chosen;
-    const others = known.filter(({ at }) => at !== chosen);
-    const place = typeof chosen === "number" ? others.filter(({ at }) => at < chosen).length : others.length;
-    const dye = typeof chosen === "number" ? work.layers[chosen].dye : this.#dye;
-    const names = ui.grid.patterns.map((/** @type {{ name: string }} */ { name }) => name);
-    ui.grid.show(faces.previews({ base: work.base, layers: others }, place, dye, names), typeof chosen === "number" ? work.layers[chosen].pattern : undefined);
-    drawPixels(ui.flat, faces.face({ base: work.base, layers: known }));
-  }
-
   #showPause() {
     const { banner, pause } = this.#ui;
-    const label = this.#say(banner.paused ? "play" : "pause");
+    const label = this.#editor.say(banner.paused ? "play" : "pause");
     pause.replaceChildren(icon(banner.paused ? "play" : "pause"));
     pause.setAttribute("aria-label", label);
     pause.title = label;
@@ -511,7 +318,7 @@ export class DraperyDesigner extends Element {
 
   /** @param {string} version @returns {{ text: string | null, reason: string }} */
   #command(version) {
-    const { work } = this.#history;
+    const { work } = this.#editor;
     try {
       return { text: writeCommand(version, shownOf(work), work.item), reason: "" };
     } catch (error) {
@@ -523,23 +330,23 @@ export class DraperyDesigner extends Element {
   #showCommand() {
     const { command, about, copy } = this.#ui;
     const { text, reason } = this.#command(this.#version);
-    const lost = notKept(this.#version, this.#history.work.item).map((key) => this.#say(key));
+    const lost = notKept(this.#version, this.#editor.work.item).map((key) => this.#editor.say(key));
     command.value = text ?? "";
     copy.disabled = text === null;
-    if (text === null) about.textContent = this.#say("formLacks", { version: this.#versionTitle(this.#version), reason });
-    else if (lost.length) about.textContent = this.#say("lost", { what: lost.join(", ") });
-    else about.textContent = text.length > CHAT && this.#version !== "bedrock" ? this.#say("long", { count: text.length }) : "";
+    if (text === null) about.textContent = this.#editor.say("formLacks", { version: this.#versionTitle(this.#version), reason });
+    else if (lost.length) about.textContent = this.#editor.say("lost", { what: lost.join(", ") });
+    else about.textContent = text.length > CHAT && this.#version !== "bedrock" ? this.#editor.say("long", { count: text.length }) : "";
   }
 
   // The materials and the steps at the loom.
   #showLoom(/** @type {Shown} */ design) {
-    const say = this.#say.bind(this);
+    const { say } = this.#editor;
     const items = materials(design).map(({ item, count, dye, pattern }) => {
       const notes = pattern ? [say("kept"), ...(FOUND[pattern] ? [say(FOUND[pattern])] : [])] : [];
-      const name = say(item, { pattern: pattern && this.#caption(pattern) }) + (dye ? ` (${this.#dyeTitle(dye)})` : "");
+      const name = say(item, { pattern: pattern && this.#editor.caption(pattern) }) + (dye ? ` (${this.#editor.dyeTitle(dye)})` : "");
       return make("li", {}, `${count} × ${name}`, make("span", { class: "hint" }, notes.join(", ")));
     });
-    const steps = design.layers.map(({ pattern, dye }) => make("li", {}, `${this.#dyeTitle(dye)}: ${this.#caption(pattern)}`));
+    const steps = design.layers.map(({ pattern, dye }) => make("li", {}, `${this.#editor.dyeTitle(dye)}: ${this.#editor.caption(pattern)}`));
     this.#ui.loom.replaceChildren(make("summary", {}, say("loom")), make("ul", { class: "loom" }, ...items), make("ol", { class: "loom" }, ...steps));
   }
 
@@ -547,7 +354,7 @@ export class DraperyDesigner extends Element {
 
   #link() {
     const own = this.hasAttribute("linked") ? location.href.split("#")[0] : (this.getAttribute("page") ?? location.href.split("#")[0]);
-    return `${own}#${writeHash(shownOf(this.#history.work))}`;
+    return `${own}#${writeHash(shownOf(this.#editor.work))}`;
   }
 
   #embed() {
@@ -560,28 +367,28 @@ export class DraperyDesigner extends Element {
   async #copy(/** @type {string} */ text, /** @type {string} */ what) {
     try {
       await navigator.clipboard.writeText(text);
-      this.#tell(`${this.#say("copied")}: ${this.#say(what)}`);
+      this.#editor.tell(`${this.#editor.say("copied")}: ${this.#editor.say(what)}`);
     } catch {
       const { command } = this.#ui; // pages without https have no clipboard
       command.value = text;
       command.focus();
       command.select();
       const isCopied = document.execCommand("copy");
-      this.#tell(this.#say(isCopied ? "copied" : "copyFailed"));
+      this.#editor.tell(this.#editor.say(isCopied ? "copied" : "copyFailed"));
       if (isCopied) this.#showCommand();
     }
   }
 
   async #save() {
     const { banner } = this.#ui;
-    const { kind } = this.#history.work;
+    const { kind } = this.#editor.work;
     try {
       if (kind === "shield" || this.#pack) return this.#give(await banner.snapshot(), `${kind}.png`);
       const canvas = make("canvas");
       drawPixels(canvas, await banner.picture());
       this.#give(await new Promise((done) => canvas.toBlob(done)), "banner.png");
     } catch (error) {
-      this.#tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
+      this.#editor.tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
     }
   }
 
@@ -591,7 +398,7 @@ export class DraperyDesigner extends Element {
       const film = await this.#ui.banner.record();
       this.#give(film, `banner.${film.type.includes("mp4") ? "mp4" : "webm"}`);
     } catch (error) {
-      this.#tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
+      this.#editor.tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
     } finally {
       button.disabled = false;
     }
@@ -608,12 +415,12 @@ export class DraperyDesigner extends Element {
     try {
       const left = this.setDesign(text);
       field.value = "";
-      this.#tell(left.length ? this.#say("notKept", { what: left.join(", ") }) : "");
+      this.#editor.tell(left.length ? this.#editor.say("notKept", { what: left.join(", ") }) : "");
       wrong.hidden = true;
     } catch (error) {
       if (!(error instanceof DesignError)) throw error;
       field.value = text.slice(0, TABLES.maxText);
-      Object.assign(wrong, { hidden: false, textContent: this.#say("notRead", { reason: error.message }) });
+      Object.assign(wrong, { hidden: false, textContent: this.#editor.say("notRead", { reason: error.message }) });
     }
     field.setAttribute("aria-invalid", String(!wrong.hidden));
   }
@@ -630,21 +437,21 @@ export class DraperyDesigner extends Element {
     try {
       const pack = await readPack(file);
       const some = (/** @type {string[]} */ names) => names.slice(0, MOST_NAMED).join(", ") + (names.length > MOST_NAMED ? ` + ${names.length - MOST_NAMED}` : "");
-      const told = [this.#say("packShown", { name: short(file.name), count: Object.keys(pack.banner).length + Object.keys(pack.shield).length })];
-      if (pack.lacks.length) told.push(this.#say("packLacks", { what: some(pack.lacks.map(this.#caption)) }));
-      if (pack.refused.length) told.push(this.#say("packRefused", { what: some(pack.refused) }));
+      const told = [this.#editor.say("packShown", { name: short(file.name), count: Object.keys(pack.banner).length + Object.keys(pack.shield).length })];
+      if (pack.lacks.length) told.push(this.#editor.say("packLacks", { what: some(pack.lacks.map(this.#editor.caption)) }));
+      if (pack.refused.length) told.push(this.#editor.say("packRefused", { what: some(pack.refused) }));
       await this.#wear(pack, told.join(" "));
     } catch (error) {
-      this.#tellPack(this.#say("notRead", { reason: /** @type {Error} */ (error).message }), true);
+      this.#tellPack(this.#editor.say("notRead", { reason: /** @type {Error} */ (error).message }), true);
     }
   }
 
   async #wear(/** @type {typeof this.#pack} */ pack, /** @type {string} */ told) {
     this.#pack = pack;
-    await Promise.all(["banner", "shield"].map((kind) => this.#open(kind)));
+    await Promise.all(["banner", "shield"].map((kind) => this.#editor.open(kind)));
     this.#ui.banner.pack = pack;
     this.#tellPack(told, false);
-    this.#show();
+    this.#editor.show();
   }
 
   #tellPack(/** @type {string} */ text, /** @type {boolean} */ isWrong) {

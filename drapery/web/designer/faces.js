@@ -19,14 +19,40 @@ export class Faces {
     return new Faces(header, arrays, FRONTS[kind]);
   }
 
+  /** The faces that `drapery.web.face_file` wrote.
+   * @param {ArrayBuffer} message */
+  static read(message) {
+    const { header, arrays } = unpack(message);
+    const faces = new Faces(header, arrays, header.front);
+    const size = 4 * header.front.width * header.front.height;
+    header.sheets.forEach((/** @type {string} */ name, /** @type {number} */ at) => faces.masks.set(name, arrays.masks.subarray(size * at, size * (at + 1))));
+    return faces;
+  }
+
   /** @param {any} header @param {any} arrays @param {{ width: number, height: number }} front */
   constructor(header, arrays, front) {
     this.front = front;
     this.header = header;
     this.arrays = arrays;
-    this.first = arrays.materials[4 * arrays.vertexMaterials[header.flag]];
     /** @type {Map<string, Uint8Array>} */
     this.masks = new Map();
+    /** @type {Faces | undefined} */
+    this.reduced = undefined;
+  }
+
+  // The same of one texel a unit, of which all patterns are drawn at once.
+  get small() {
+    const { scale = 1 } = this.header;
+    if (scale === 1) return this;
+    const front = { width: this.front.width / scale, height: this.front.height / scale };
+    this.reduced ??= new Faces({ ...this.header, scale: 1 }, this.arrays, front);
+    for (const [name, mask] of this.reduced.masks.size ? [] : this.masks) {
+      const texels = new Uint32Array(mask.slice().buffer);
+      const middle = (/** @type {number} */ at) => at * scale + (scale >> 1);
+      const placed = Uint32Array.from({ length: front.width * front.height }, (_, at) => texels[middle(Math.floor(at / front.width)) * this.front.width + middle(at % front.width)]);
+      this.reduced.masks.set(name, new Uint8Array(placed.buffer));
+    }
+    return this.reduced;
   }
 
   get patterns() {
@@ -41,7 +67,8 @@ export class Faces {
     const sheet = this.header.sheets.indexOf(pattern);
     if (sheet < 0) throw new Error(`there is no texture of the pattern '${pattern}' here`);
     const { atlas, layers } = this.arrays;
-    const [left, top, width, height] = layers.subarray(7 * (this.first + sheet));
+    const first = this.arrays.materials[4 * this.arrays.vertexMaterials[this.header.flag]];
+    const [left, top, width, height] = layers.subarray(7 * (first + sheet));
     const wide = this.header.atlas[0];
     const mask = new Uint8Array(4 * this.front.width * this.front.height);
     for (let at = 0; at < mask.length / 4; at++) {
@@ -53,7 +80,7 @@ export class Faces {
     return mask;
   }
 
-  /** The face of a design, as `drapery.banner.composite` makes it: RGBA.
+  /** The face of a design, as `drapery.banner.composite` makes it, without patterns that are not here: RGBA.
    * @param {{ base: string, layers: Layer[] }} design */
   face(design) {
     return new ImageData(this.texels(design), this.front.width);
@@ -63,7 +90,7 @@ export class Faces {
   texels({ base, layers }) {
     const pixels = new Uint8ClampedArray(this.mask(""));
     for (let at = 3; at < pixels.length; at += 4) pixels[at] = 255;
-    for (const layer of [{ pattern: "base", dye: base }, ...layers]) this.lay(pixels, layer);
+    for (const layer of [{ pattern: "base", dye: base }, ...layers]) if (this.patterns.includes(layer.pattern)) this.lay(pixels, layer);
     return pixels;
   }
 
@@ -90,11 +117,10 @@ export class Faces {
     const above = layers.slice(at);
     const { width, height } = this.front;
     const sheet = new ImageData(width * patterns.length, height);
-    const isPale = TABLES.rgb[dye].reduce((/** @type {number} */ sum, /** @type {number} */ part) => sum + part) > 382;
     patterns.forEach((pattern, number) => {
       let face = below.slice();
       this.lay(face, { pattern, dye });
-      if (difference(below, face) < 0.005) this.lay((face = below.slice()), { pattern, dye: isPale ? "black" : "white" });
+      if (difference(below, face) < 0.005) this.lay((face = below.slice()), { pattern, dye: unlike(dye) });
       for (const layer of above) this.lay(face, layer);
       for (let row = 0; row < height; row++)
         sheet.data.set(face.subarray(4 * width * row, 4 * width * (row + 1)), 4 * (row * sheet.width + number * width));
@@ -125,6 +151,10 @@ export class Faces {
     return difference(without, this.texels({ base, layers })) > 0.02;
   }
 }
+
+/** Black or white, whichever is less like a dye.
+ * @param {string} dye */
+export const unlike = (dye) => (TABLES.rgb[dye].reduce((/** @type {number} */ sum, /** @type {number} */ part) => sum + part) > 382 ? "black" : "white");
 
 /** The mean difference of two pictures, of 1.
  * @param {Uint8ClampedArray} one @param {Uint8ClampedArray} other */

@@ -40,7 +40,7 @@ export class LayerList {
     const [plain, heraldic] = titles.pattern(layer.pattern).split(" / ");
     const canvas = make("canvas");
     const ground = { base: layer.dye === "white" || layer.dye === "light_gray" ? "gray" : CHECKS, layers: [layer] };
-    if (faces.patterns.includes(layer.pattern)) drawPixels(canvas, faces.face(ground));
+    drawPixels(canvas, faces.face(ground));
     const button = make("button", {
       type: "button", class: "layer", "aria-pressed": String(isChosen), "aria-keyshortcuts": "Alt+ArrowUp Alt+ArrowDown Delete H D",
       onclick: () => acts.select(isChosen ? null : at),
@@ -106,11 +106,19 @@ export class LayerList {
         each.style.translate = at === from ? `0 ${moved.clientY - event.clientY}px` : `0 ${shift}px`;
       });
     };
+    const cancel = (/** @type {KeyboardEvent} */ press) => {
+      if (press.key !== "Escape") return;
+      to = from;
+      grip.releasePointerCapture(event.pointerId);
+    };
     const drop = () => {
+      removeEventListener("keydown", cancel);
+      grip.removeEventListener("pointermove", follow);
       rows.forEach((each) => (each.style.translate = ""));
       row.classList.remove("dragged");
       if (to !== from) this.acts.move(from, to);
     };
+    addEventListener("keydown", cancel);
     grip.addEventListener("pointermove", follow);
     grip.addEventListener("lostpointercapture", drop, { once: true });
   }

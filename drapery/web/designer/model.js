@@ -17,10 +17,11 @@ export const ITEM = { target: "@p", count: 1, name: "", lore: [] };
 /** @type {Motion} */
 export const MOTION = { wind: 4, direction: 0, placement: "standing", fabric: "wool", view: "front", daylight: 1 };
 
-/** What a design is when its editing begins.
- * @param {Shown} design @param {Partial<Item>} [item] @param {Motion} [motion] @returns {Work} */
-export function workOf({ base, kind, layers }, item = {}, motion = MOTION) {
-  return { base, kind, layers: layers.map(({ pattern, dye }) => ({ pattern, dye })), item: { ...ITEM, ...item }, motion };
+/** What a design is when its editing begins; what else a page knows of it stays.
+ * @param {Omit<Work, "item" | "motion">} design @param {Partial<Item>} [item] @param {Motion} [motion] @returns {Work} */
+export function workOf({ base, kind, layers, ...more }, item = {}, motion = MOTION) {
+  const edited = layers.map(({ pattern, dye, hidden }) => ({ pattern, dye, ...(hidden && { hidden }) }));
+  return { ...more, base, kind, layers: edited, item: { ...ITEM, ...item }, motion };
 }
 
 /** The design without its hidden layers.
