@@ -41,8 +41,8 @@ from studio_browser import (
 )
 
 from benchmarks.quick import add_quick, needs
-from drapery.banner import PATTERN_NAMES, write_banner
-from drapery.studio.sketch import banner_of, random_sketch
+from drapery import Banner, Layer
+from drapery.banner import DYE_NAMES, PATTERN_NAMES, write_banner
 
 QUIET = 0.25
 """An action has had its effect when the design has not changed for this time [s]."""
@@ -182,11 +182,11 @@ def _pattern(visitor: Visitor) -> str:
 
 
 def _layer(visitor: Visitor) -> str:
-    return visitor.pick(".layer .row-main")
+    return visitor.pick(".layer-list .layer")
 
 
 def _layer_tool(visitor: Visitor) -> str:
-    return visitor.pick(".layer .tool")
+    return visitor.pick(".layer-list .icon")
 
 
 def _random_design(visitor: Visitor) -> str:
@@ -194,7 +194,9 @@ def _random_design(visitor: Visitor) -> str:
 
 
 def _paste(visitor: Visitor) -> str:
-    banner = banner_of(random_sketch(visitor.random.getrandbits(32)))
+    pick = visitor.random.choice
+    layers = (Layer(pick(PATTERN_NAMES), pick(DYE_NAMES)) for _ in range(4))
+    banner = Banner(pick(DYE_NAMES), tuple(layers))
     text = write_banner(banner, visitor.random.choice(("give", "text", "needcoolshoes")))
     paste(visitor.page, text)
     return text

@@ -59,6 +59,12 @@ def face_address(
     return f"design/{document.token}.png?{urlencode(words | _packs(document, pack))}"
 
 
+def face_files(document: Document) -> dict[str, str]:
+    """The addresses of what the page's editor draws faces of, by the kind of design."""
+    words = urlencode(_packs(document, "now"))
+    return {kind: f"faces/{document.token}/{kind}.bin?{words}" for kind in ("banner", "shield")}
+
+
 def pattern_names(packs: Packs) -> tuple[str, ...]:
     """The patterns that a design can name; the result is cached for each opened stack of packs."""
     if packs not in _names:

@@ -6,14 +6,21 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from nicegui import ui
 from nicegui.element import Element
 
+from drapery.banner import game_titles
+from drapery.studio.art import face_files
 from drapery.studio.session import Session
+from drapery.studio.sketch import edited_sketch, editor_tree
 from drapery.studio.translation import translated
-from drapery.studio.widgets import set_props
+from drapery.studio.widgets import on, set_props
 from drapery.web.bundle import bundled_module
+from drapery.web.pattern_words import search_words
+from drapery.web.tables import languages
 
 VIEWER = Path(__file__).with_name("live_viewer.js")
+DESIGNER = VIEWER.with_name("studio_designer.js")
 LABEL = (
     "Live banner. Drag the cloth to pull it and the background to turn the view; the wheel or plus"
     " and minus zoom, Shift with arrows turns, Home resets the view. W, A, S, D or arrows turn the"
@@ -21,16 +28,47 @@ LABEL = (
 )
 
 
-class Palette(Element, component="palette.js"):
-    """A palette of dyes, one of them marked; emits `dye` with a name."""
+def editor_part(name: str) -> Element:
+    """A place of the page where the editor has one of its parts."""
+    return ui.element("div").classes(f"editor part-{name}").props(f"data-part={name}")
 
 
-class PatternGrid(Element, component="patterns.js"):
-    """All patterns in the chosen dyes; emits `pattern` with a name, and `swaps`."""
+class DesignerElement(Element, component="designer.js"):
+    """The page's editor: it tells of each design, and takes those that come from elsewhere."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self.props["module"] = viewer_address()
+        self.props["given"] = {
+            "design": editor_tree(session.sketch),
+            "language": _editor_language(session.language),
+            "words": search_words(),
+            "token": session.token,
+        }
+        session.follow(lambda: set_props(self, {"faces": face_files(session)}), "packs")
+        session.listen(lambda: self.run_method("lay", editor_tree(session.sketch)), "laid")
+        on(self, "design", lambda tree: session.take(edited_sketch(tree)))
 
 
-class LayerList(Element, component="layers.js"):
-    """The layers, topmost first; emits `choose` with a number, and `act` with what to do."""
+EDITOR_TEXTS = {
+    "new": "New banner",
+    "untitled": "Untitled",
+    "titleOf": "Title of the design",
+    "history": "History",
+    "step": "Step {number}: {design}",
+}
+"""The texts that the editor has in the studio alone."""
+
+
+def _editor_language(code: str) -> dict[str, Any]:
+    """What an editor needs to speak a language."""
+    texts = {key: translated(text) for key, text in EDITOR_TEXTS.items()}
+    if code not in languages():
+        return {"code": "en", "texts": texts, "dyes": {}, "patterns": {}}
+    language = languages()[code]
+    dyes, patterns = game_titles(language["game"])
+    named = {"code": code, "dyes": dyes, "patterns": patterns}
+    return {**named, "texts": texts | language["texts"]}
 
 
 class ViewerElement(Element, component="viewer.js"):
@@ -63,8 +101,8 @@ class ViewerElement(Element, component="viewer.js"):
 
 
 def viewer_module() -> str:
-    """The JavaScript of the viewer and of all that plays cloth, as one module."""
-    return bundled_module(VIEWER, ("LiveViewer",))
+    """The JavaScript of the viewer, of all that plays cloth, and of the editor, as one module."""
+    return bundled_module(VIEWER, ("LiveViewer", "StudioDesigner"), more=[DESIGNER])
 
 
 @cache

@@ -1,31 +1,14 @@
 """Designs, dyes and patterns for labels, tooltips and screen readers."""
 
-from drapery.banner import PATTERNS, Dye
+from drapery.banner import PATTERNS
 from drapery.option import Option
 from drapery.studio.sketch import Sketch
 from drapery.studio.translation import translated
-
-MIDDLE_LUMINANCE = 0.18
-"""The luminance with which black and white have the same contrast."""
 
 
 def dye_title(dye: str) -> str:
     """The dye's title: "Light blue" for `light_blue`."""
     return translated(dye.replace("_", " ").capitalize())
-
-
-def dye_colour(dye: Dye) -> str:
-    """The dye as a CSS colour."""
-    return "#{:02x}{:02x}{:02x}".format(*dye.rgb)
-
-
-def luminance(dye: Dye) -> float:
-    """Relative luminance of an sRGB colour (WCAG 2.2)."""
-    red, green, blue = (
-        part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
-        for part in (channel / 255 for channel in dye.rgb)
-    )
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
 def pattern_title(pattern: str) -> str:
@@ -76,12 +59,6 @@ def described(sketch: Sketch) -> str:
     if not layers:
         return field
     return translated("{design} with {layers}").format(design=field, layers=", ".join(layers))
-
-
-def layer_title(number: int, dye: str, pattern: str) -> str:
-    """A layer in words. number: counted from 1 at the bottom."""
-    words = {"dye": dye_title(dye), "pattern": pattern_title(pattern)}
-    return translated("Layer {number}, {dye} {pattern}").format(number=number, **words)
 
 
 def named(name: str, description: str) -> str:

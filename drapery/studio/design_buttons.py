@@ -38,7 +38,7 @@ class DesignButton(Element):
         """
 
         def open_design() -> None:
-            session.selection.lay_out(sketch_of(banner, title or session.sketch.title))
+            session.lay_out(sketch_of(banner, title or session.sketch.title))
 
         super().__init__("button")
         words = label or described(sketch_of(banner))

@@ -1,4 +1,4 @@
-"""The work of one tab: its design with what can be undone, its options, packs and files."""
+"""The work of one tab: its design, its options, packs and files."""
 
 import logging
 import secrets
@@ -13,30 +13,33 @@ from typing import Any, Literal
 
 from drapery import DesignError, Settings
 from drapery.packs import Packs, open_packs
-from drapery.studio.history import History
 from drapery.studio.sketch import MAX_TITLE, Sketch
 
 LOG = logging.getLogger(__name__)
 
 Event = (
-    Literal["sketch", "settings", "packs", "scene", "preview", "recent", "library"]
-    | Literal["selection", "read"]
+    Literal["sketch", "settings", "packs", "scene", "recent", "library"] | Literal["laid", "read"]
 )
-"""`selection`: what is chosen, or the design. `read`: a text or a file, of which designs come."""
+"""`laid`: a design for the page's editor. `read`: a text or a file, of which designs come."""
+
+MAX_STATES = 24
+"""The most designs that a tab remembers to compare with."""
 
 
 class Document:
     """What one tab works on. A change calls the event's listeners in the order they were added.
 
+    The page's editor has the design and all that can be undone, and tells of each edit.
+
     token: identifies the tab to the server; it cannot be guessed.
-    survival: whether the six layers of a loom should be enough.
+    sketch: the design. states: those that the tab has shown, in their order.
     """
 
     def __init__(self, settings: Settings | None = None, sketch: Sketch | None = None) -> None:
         self.token = secrets.token_urlsafe(24)
-        self.history: History[Sketch] = History(sketch or Sketch())
+        self.sketch = sketch or Sketch()
+        self.states: tuple[Sketch, ...] = (self.sketch,)
         self.settings = settings or Settings()
-        self.survival = True
         self.closed = False
         self._folder: Path | None = None
         self._packs: tuple[object, Packs] | None = None
@@ -44,11 +47,6 @@ class Document:
         self._lock = threading.Lock()
         self._listeners: defaultdict[str, list[Callable[[], object]]] = defaultdict(list)
         self._at_close: list[Callable[[], object]] = []
-
-    @property
-    def sketch(self) -> Sketch:
-        """The current design."""
-        return self.history.present
 
     @property
     def folder(self) -> Path:
@@ -82,29 +80,22 @@ class Document:
             return self._packs[1]
 
     def edit(self, sketch: Sketch) -> None:
-        """Replace the design, as a step that can be undone; notifies "sketch"."""
-        self._go(self.history.push(sketch))
+        """Replace the design, as a step that the editor can undo; notifies "sketch", "laid"."""
+        self.take(sketch)
+        self.notify("laid")
 
     def name(self, title: str) -> None:
-        """Give the design a title, as a step that can be undone; notifies "sketch"."""
+        """Give the design a title; as `edit`."""
         self.edit(replace(self.sketch, title=title[:MAX_TITLE].strip()))
 
-    def undo(self) -> None:
-        """Undo one step, if there is one; notifies "sketch"."""
-        self._go(self.history.undo())
-
-    def redo(self) -> None:
-        """Redo one undone step, if there is one; notifies "sketch"."""
-        self._go(self.history.redo())
-
-    def go_to(self, place: int) -> None:
-        """Go to a state of the history, by its place; notifies "sketch"."""
-        self._go(self.history.go_to(place))
-
-    def _go(self, history: History[Sketch]) -> None:
-        if history is not self.history:
-            self.history = history
-            self.notify("sketch")
+    def take(self, sketch: Sketch) -> None:
+        """Take the design of the editor; notifies "sketch" if it is another one."""
+        if sketch == self.sketch:
+            return
+        self.sketch = sketch
+        if sketch not in self.states:
+            self.states = (*self.states, sketch)[-MAX_STATES:]
+        self.notify("sketch")
 
     def adjust(self, **options: Any) -> None:
         """Change options of the picture; notifies "settings", and "packs" if those changed.

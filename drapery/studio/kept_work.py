@@ -7,8 +7,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from drapery import Settings
-from drapery.studio.history import History
 from drapery.studio.pack_store import PackEntry
 from drapery.studio.sketch import Sketch
 
@@ -24,12 +22,10 @@ MAX_BYTES = 1 << 30
 class Work:
     """What a tab can go on from.
 
-    packs: lowest first. entries, tags: as in `Session`.
+    packs: lowest first. states, entries, tags: as in `Session`. The page keeps what can be undone.
     """
 
-    history: History[Sketch]
-    settings: Settings
-    survival: bool
+    states: tuple[Sketch, ...]
     packs: tuple[PackEntry, ...]
     entries: dict[int, int]
     tags: dict[int, str]

@@ -63,6 +63,8 @@ export class LiveViewer {
       }),
     ];
     this.observers.forEach((each) => each.observe(host));
+    this.follow = (event) => this.lay(event.detail.text);
+    document.addEventListener("drapery-change", this.follow);
     this.counting = setInterval(() => {
       this.tell({ rate: this.shown });
       this.shown = 0;
@@ -72,6 +74,7 @@ export class LiveViewer {
   end() {
     this.isOver = true;
     clearInterval(this.counting);
+    document.removeEventListener("drapery-change", this.follow);
     this.observers.forEach((each) => each.disconnect());
     this.input.end();
     this.replace([]);
@@ -84,6 +87,21 @@ export class LiveViewer {
     if (before) this.apply(before);
     if (before?.module !== state.module) Object.assign(this, { module: null, refused: null });
     this.load();
+  }
+
+  // Show what the page's editor has, before the server knows it.
+  lay(text) {
+    this.laid = text;
+    try {
+      this.each((player) => player.setDesign(this.design));
+    } catch {
+      // The server says what is wrong, or has a scene for it.
+    }
+  }
+
+  // The design of the scenes; null where they have a texture instead.
+  get design() {
+    return this.state.design && (this.laid ?? this.state.design);
   }
 
   // The address of what is to be seen: of the scenes, or of the picture instead of them.
@@ -121,7 +139,7 @@ export class LiveViewer {
     const [module, ...files] = await Promise.all([this.module, ...addresses.map(bytesOf)]);
     if (this.isOver) return;
     const canvases = this.canvasesFor(files.length);
-    const made = files.map((file, number) => CountedPlayer.made(canvases[number], unpack(file.buffer), module, this.state.design));
+    const made = files.map((file, number) => CountedPlayer.made(canvases[number], unpack(file.buffer), module, this.design));
     const players = await Promise.all(made);
     const follows = players.map((player, number) => this.players.length > 0 && player.follow(this.players[number] ?? this.players[0]));
     this.isDisturbed = follows.includes(true) && (this.isDisturbed || this.motion !== this.state.motion);
@@ -178,7 +196,7 @@ export class LiveViewer {
     const { state } = this;
     const differs = (...names) => !before || names.some((name) => before[name] !== state[name]);
     try {
-      if (differs("design")) this.each((player) => player.setDesign(state.design));
+      if (differs("design")) this.each((player) => player.setDesign(this.design));
       if (differs("daylight")) this.each((player) => player.setDaylight(state.daylight));
     } catch (error) {
       this.tell({ line: error.message });

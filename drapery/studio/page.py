@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from html import escape
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Literal
@@ -11,7 +12,8 @@ from nicegui import Client, ui
 
 from drapery import DraperyError, Settings
 from drapery.banner import parse_banner
-from drapery.studio.components import viewer_address
+from drapery.studio.art import face_files
+from drapery.studio.components import editor_part, viewer_address
 from drapery.studio.descriptions import described
 from drapery.studio.notices import show_notice
 from drapery.studio.panels import bar, shortcuts
@@ -31,7 +33,8 @@ Place = Literal["left", "viewport", "under", "side"]
 class PagePanel:
     """One part of the page.
 
-    name: that of its module in `panels/`, and part of the ids of its elements. title: the text of
+    name: that of its module in `panels/`, and part of the ids of its elements. part: of the editor,
+    instead of a module. title: the text of
     its heading and tab. icon: the tab's icon, a name in Material Icons. place: panels `left` of and
     `under` the viewport are always visible in a wide window; panels at the `side` share one place,
     with tabs. On a phone every panel except the viewport and the palette is a tab.
@@ -41,14 +44,15 @@ class PagePanel:
     title: str
     icon: str
     place: Place
+    part: str = ""
 
 
 PANELS = (
-    PagePanel("palette", "Dyes", "palette", "left"),
+    PagePanel("palette", "Dyes", "palette", "left", "dyes"),
     PagePanel("layers", "Layers", "layers", "left"),
     PagePanel("live", "Live", "air", "viewport"),
     PagePanel("face", "Flat", "crop_portrait", "viewport"),
-    PagePanel("steps", "History", "history", "under"),
+    PagePanel("steps", "History", "history", "under", "steps"),
     PagePanel("motion", "Motion", "tune", "under"),
     # To design, to bring in, to get out, and what is kept.
     PagePanel("patterns", "Patterns", "grid_view", "side"),
@@ -122,7 +126,6 @@ def build(session: Session, sessions: Sessions) -> None:
     shortcuts.build()
     _write_into_address(session)
     handlers: dict[str, Callable[[Any], object]] = {
-        "act": lambda what: bar.act(session, str(what)),
         "resume": lambda token: _resume(session, sessions, token),
         "recent": session.set_recent,
         "pasted": lambda text: session.upload_queue.read_text(str(text)),
@@ -134,8 +137,7 @@ def build(session: Session, sessions: Sessions) -> None:
 def _resume(session: Session, sessions: Sessions, token: object) -> None:
     """Go on from the work of the page that was loaded before at this place of the history."""
     work = sessions.work(str(token))
-    # The user may have begun to work here already.
-    if work is not None and not session.history.past:
+    if work is not None:
         session.resume(work)
 
 
@@ -169,8 +171,9 @@ def _head(session: Session) -> None:
     ui.add_head_html(f'<script type="module">{(_FOLDER / "studio.js").read_text()}</script>')
     # What plays the cloth comes beside the page's framework, not after it.
     ui.add_head_html(f'<link rel="modulepreload" href="{viewer_address()}">')
-    if is_module_built():
-        ui.add_head_html(f'<link rel="preload" as="fetch" crossorigin href="{module_address()}">')
+    fetched = [face_files(session)["banner"], *([module_address()] if is_module_built() else [])]
+    for address in fetched:
+        ui.add_head_html(f'<link rel="preload" as="fetch" crossorigin href="{escape(address)}">')
 
 
 def _panels(session: Session, place: str) -> None:
@@ -182,6 +185,9 @@ def _panels(session: Session, place: str) -> None:
             if panel.name == FIRST_TAB:
                 section.props("data-active")
             with section:
+                if panel.part:
+                    editor_part(panel.part)
+                    continue
                 import_module(f"{__package__}.panels.{panel.name}").build(session)
 
 

@@ -17,7 +17,7 @@ from drapery import DesignError, DraperyError, OptionError
 from drapery.banner import parse_banner
 from drapery.file_formats import KIND_NAMES, format_of
 from drapery.packs import Packs, open_packs
-from drapery.studio.art import face_png, pattern_rows, pattern_sheet, style_png
+from drapery.studio.art import face_png, pattern_names, pattern_rows, pattern_sheet, style_png
 from drapery.studio.components import viewer_module
 from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.session import Session, Sessions
@@ -25,6 +25,7 @@ from drapery.studio.sketch import banner_of
 from drapery.studio.translation import translated
 from drapery.studio.uploads import PURPOSES, shown_bytes, shown_name
 from drapery.styles import style_names
+from drapery.web.face_file import face_bytes
 from drapery.web.wasm.module import is_module_built, read_module
 
 CACHING = "private, max-age=3600"
@@ -71,6 +72,16 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
             return face_png(banner, _packs(session, pack), scale)
 
         return _picture(session, draw)
+
+    @app.get("/faces/{token}/{kind}.bin")
+    def faces(token: str, kind: Literal["banner", "shield"]) -> Response:
+        session = session_of(token)
+        try:
+            packs = session.packs()
+            data = face_bytes(kind, packs, pattern_names(packs))
+        except DraperyError as error:
+            return _not_shown(session, error)
+        return _compressed(data, "application/octet-stream")
 
     @app.get("/patterns/{token}.png")
     def patterns(

@@ -1,7 +1,8 @@
 """The session of one browser tab (its document and all that serves it), and all open sessions."""
 
+import secrets
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,9 +12,8 @@ from drapery.studio.exports import Exports, ExportSlots
 from drapery.studio.garment_store import GarmentStore
 from drapery.studio.kept_work import KeptWork, Work
 from drapery.studio.pack_store import PackStore
-from drapery.studio.selection import Selection
-from drapery.studio.share import SHARED, as_tree, read_link, with_shared
-from drapery.studio.sketch import Sketch
+from drapery.studio.share import SHARED, read_link, with_shared
+from drapery.studio.sketch import MAX_ORIGIN, Sketch
 from drapery.studio.upload_queue import UploadQueue
 from drapery.studio.uploads import Uploads
 from drapery.studio.viewport import Viewport
@@ -63,7 +63,8 @@ class Session(Document):
         self.tags: dict[int, str] = {}
         self.language = "en"
         self.recent: tuple[tuple[Sketch, Settings], ...] = ()
-        self.selection = Selection(self)
+        # Before all others who hear of a design: a shield is not on a wall.
+        self.listen(self._take_off_wall, "sketch")
         self.uploads = Uploads(self)
         self.upload_queue = UploadQueue(self, self.uploads)
         self.pack_store = PackStore(self, self.uploads)
@@ -85,7 +86,7 @@ class Session(Document):
         """What another page needs to go on from here."""
         packs = self.pack_store.entries
         own = {**self.entries}, {**self.tags}
-        return Work(self.history, self.settings, self.survival, packs, *own)
+        return Work(self.states, packs, *own)
 
     def set_recent(self, links: object) -> None:
         """Take the links of the latest designs from the browser; notifies "recent"."""
@@ -100,19 +101,25 @@ class Session(Document):
         """Begin with another design and its options; this can be undone. Raises OptionError."""
         chosen = with_shared(self.settings, settings)
         self.adjust(**{name: chosen.as_given(name) for name in SHARED})
-        self.selection.lay_out(sketch)
+        self.lay_out(sketch)
+
+    def lay_out(self, sketch: Sketch, *, same: bool = False) -> None:
+        """Replace the design; this can be undone.
+
+        same: whether it is still the same design, such as after layers without effect are removed.
+        """
+        origin = self.sketch.origin if same else secrets.randbelow(MAX_ORIGIN)
+        self.edit(replace(sketch, origin=origin))
+
+    def _take_off_wall(self) -> None:
+        if self.sketch.kind == "shield" and self.settings.placement == "wall":
+            self.adjust(placement="standing", facing=None)
 
     def resume(self, work: Work) -> None:
-        """Go on from a tab's work; a design in this page's address becomes its last step.
-
-        Raises DraperyError for packs that cannot be opened any more.
-        """
-        here = as_tree(self.sketch, self.settings)
+        """Go on from a tab's work. Raises DraperyError for packs that cannot be opened any more."""
         self.entries |= work.entries
         self.tags |= work.tags
-        self.survival = work.survival
-        same = here == as_tree(work.history.present, work.settings)
-        self.history = work.history if same else work.history.push(self.sketch)
+        self.states = (*work.states, *(each for each in self.states if each not in work.states))
         try:
             self.pack_store.restore(work.packs)
         finally:
@@ -158,7 +165,7 @@ class Sessions:
     def keep(self, session: Session) -> None:
         """End the session of a page that is gone; keep its work if it has any."""
         has_packs = any(entry.upload for entry in session.pack_store.entries)
-        keeps = not session.closed and bool(session.history.past or has_packs)
+        keeps = not session.closed and (has_packs or len(session.states) > 1)
         work, folder = session.work, session.take_folder() if keeps else None
         session.close()  # first, since it removes what exports have written
         if keeps:

@@ -4,11 +4,12 @@ const root = () => document.querySelector(".studio");
 
 const studio = (window.studio = {
   get ready() {
-    return !!(root() && window.socket?.connected);
+    return !!(root() && window.socket?.connected && document.querySelector(".part-dyes .dye"));
   },
   copy,
   tab,
   writeAddress,
+  earlier: history.state?.session, // of the page that was loaded before at this place of the history
 });
 
 // What this browser remembers. Without storage, it lasts as long as the page.
@@ -104,7 +105,7 @@ async function copy(text, from) {
 // Shortcuts. They work while no field has the focus.
 const KEYS = {
   "ctrl+z": "undo", "ctrl+shift+z": "redo", "ctrl+y": "redo", "ctrl+d": "duplicate",
-  n: "new", r: "random", b: "kind", m: "mode", h: "hide", delete: "remove", backspace: "remove",
+  n: "new", r: "random", b: "kind", h: "hide", delete: "remove", backspace: "remove",
   "alt+arrowup": "up", "alt+arrowdown": "down", escape: "none",
 };
 
@@ -139,21 +140,19 @@ window.addEventListener("keydown", (event) => {
   event.preventDefault();
 });
 
-// Arrow keys walk among tabs, dyes and patterns. The next tab or dye is also chosen.
+// Arrow keys walk among tabs and choose them.
 document.addEventListener("keydown", (event) => {
-  const here = event.target.closest?.(".tab, .dye, .pattern");
+  const here = event.target.closest?.(".tab");
   if (!here || event.altKey || event.ctrlKey || event.metaKey) return;
   const all = [...here.parentElement.children].filter((each) => each.offsetParent);
-  const columns = here.matches(".tab") ? 1 : all.filter((each) => each.offsetTop === all[0].offsetTop).length;
-  const at = all.indexOf(here), last = all.length - 1;
+  const at = all.indexOf(here);
   const next = {
-    ArrowRight: at + 1, ArrowLeft: at - 1, ArrowDown: at + columns, ArrowUp: at - columns, Home: 0, End: last,
+    ArrowRight: at + 1, ArrowLeft: at - 1, ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: all.length - 1,
   }[event.key];
   if (next === undefined) return;
-  const chooses = !here.matches(".pattern");
-  const found = all[chooses ? (next + all.length) % all.length : Math.min(Math.max(next, 0), last)];
+  const found = all[(next + all.length) % all.length];
   found.focus();
-  if (chooses) found.click();
+  found.click();
   event.preventDefault();
   event.stopPropagation();
 });
@@ -162,6 +161,7 @@ document.addEventListener("click", (event) => {
   const pressed = (kind) => event.target.closest?.(kind);
   const copying = pressed("[data-copy]");
   if (copying) copy(document.getElementById(copying.dataset.copy).value, copying);
+  else if (pressed("[data-act]")) act(pressed("[data-act]").dataset.act);
   else if (pressed(".tab")) tab(pressed(".tab").dataset.panel);
   else if (pressed(".theme")) toggleTheme();
   else if (pressed(".help")) document.getElementById("shortcuts").showModal();
@@ -210,22 +210,22 @@ document.addEventListener("input", (event) => {
 
 // A page that is loaded again goes on from its earlier session, which the browser's history names.
 function resume() {
-  const earlier = history.state?.session;
   history.replaceState({ session: root().dataset.token }, "");
   const waiting = setInterval(() => {
     if (!studio.ready) return;
     clearInterval(waiting);
     followConnection();
-    if (earlier) root().dispatchEvent(new CustomEvent("resume", { detail: earlier }));
+    if (studio.earlier) root().dispatchEvent(new CustomEvent("resume", { detail: studio.earlier }));
     root().dispatchEvent(new CustomEvent("recent", { detail: recent().map((each) => each.link) }));
   }, 30);
 }
 
-// Without the connection nothing can be edited: the server would not hear of it.
+// Without the connection only the design can be edited: of all else the server would not hear.
 function followConnection() {
   const [line, more] = document.querySelectorAll("#popup span");
   [line.textContent, more.textContent] = [root().dataset.lost, ""];
-  for (const event of ["connect", "disconnect"]) window.socket.on(event, () => (root().inert = event === "disconnect"));
+  const setInert = (inert) => document.querySelectorAll(".panel:not(:has(.editor))").forEach((each) => (each.inert = inert));
+  for (const event of ["connect", "disconnect"]) window.socket.on(event, () => setInert(event === "disconnect"));
 }
 
 // A text pasted into the text field is read at once; Ctrl+Enter reads it too.

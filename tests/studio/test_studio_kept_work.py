@@ -32,18 +32,17 @@ def pack(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize("is_gone", [False, True])
-def test_undo_packs_and_the_librarys_entry_are_there_again(pack: Path, is_gone: bool) -> None:
+def test_designs_packs_and_the_librarys_entry_are_there_again(pack: Path, is_gone: bool) -> None:
     sessions = Sessions()
     first = sessions.open()
-    first.selection.press_pattern("creeper")
-    first.selection.press_dye("lime")
+    first.lay_out(sketch_of(Banner.parse("white creeper:lime")))
     first.entries[first.sketch.origin] = 7
     send_pack(first, pack)
     if is_gone:
         sessions.keep(first)
     second = sessions.open(sketch=first.sketch)
     second.resume(sessions.work(first.token))
-    assert second.history == first.history
+    assert second.states == first.states
     assert [entry.title for entry in second.pack_store.entries] == ["blue.zip"]
     assert second.packs().level("creeper") == 1
     assert second.entries[second.sketch.origin] == 7
@@ -61,22 +60,21 @@ def test_a_closed_tab_makes_no_new_folder() -> None:
     """A file that is read in a thread may be finished after its tab; nothing would remove it."""
     sessions = Sessions()
     session = sessions.open()
-    session.selection.press_pattern("creeper")
+    session.lay_out(sketch_of(Banner.parse("white creeper:lime")))
     sessions.keep(session)
     with pytest.raises(DesignError, match="the page is gone"):
         print(session.folder)
 
 
-def test_a_design_of_the_address_is_the_last_step() -> None:
+def test_a_design_of_the_address_is_beside_those_of_the_page_before() -> None:
     sessions = Sessions()
     first = sessions.open()
-    first.selection.press_dye("red")
+    first.edit(sketch_of(Banner.parse("red")))
     other = sketch_of(Banner.parse("blue"))
     second = sessions.open(sketch=other)
     second.resume(sessions.work(first.token))
     assert second.sketch == other
-    second.undo()
-    assert second.sketch == first.sketch
+    assert second.states == (*first.states, other)
     sessions.close_all()
 
 

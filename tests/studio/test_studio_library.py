@@ -20,7 +20,7 @@ from drapery.packs import open_packs
 from drapery.settings import Settings
 from drapery.studio.library import APPLICATION_ID, VERSION, Library, default_place
 from drapery.studio.records import Design, checked_tags, tagged_designs
-from drapery.studio.sketch import Sketch, Stroke, hide, sketch_of
+from drapery.studio.sketch import Sketch, Stroke, sketch_of
 
 PICTURE = Settings(view="iso", wind=7.5, grid=(9, 17))
 
@@ -45,7 +45,9 @@ def found(library: Library, words: str = "", tag: str | None = None) -> list[str
 
 def test_a_saved_design_is_restored_completely(library: Library) -> None:
     kept = design("red creeper:lime acme:x/y:blue", "Żółw 🐢 ' \" %", "b", "a")
-    kept = replace(kept, sketch=hide(kept.sketch, 2))
+    first, second, *rest = kept.sketch.strokes
+    strokes = (first, replace(second, hidden=True), *rest)
+    kept = replace(kept, sketch=replace(kept.sketch, strokes=strokes))
     number = library.add(kept)
     got = library.get(number)
     assert (got.sketch, got.settings, got.tags) == (kept.sketch, PICTURE, ("b", "a"))
@@ -112,8 +114,8 @@ def test_a_number_that_is_not_there(library: Library, number: int) -> None:
         {"sketch": Sketch(title="a\nb")},
         {"sketch": Sketch(title="x" * 81)},
         {"sketch": Sketch("mauve")},
-        {"sketch": Sketch("red", tuple(Stroke(n, "creeper", "red") for n in range(17)))},
-        {"sketch": Sketch("red", (Stroke(1, "../x", "red"),))},
+        {"sketch": Sketch("red", (Stroke("creeper", "red"),) * 17)},
+        {"sketch": Sketch("red", (Stroke("../x", "red"),))},
         {"tags": ("a,b",)},
         {"tags": ("x" * 33,)},
         {"tags": tuple("abcdefghijklm")},

@@ -118,7 +118,7 @@ def test_no_pack_is_read_before_the_page_is_there(tmp_path: Path) -> None:
 
 def test_a_pattern_that_no_pack_has_is_named_beside_the_layers() -> None:
     session = Session()
-    session.selection.lay_out(sketch_of(Banner.parse("red acme:anvil:lime creeper:blue")))
+    session.lay_out(sketch_of(Banner.parse("red acme:anvil:lime creeper:blue")))
     (line,) = missing_patterns(session)
     assert line.startswith("acme:anvil is in none of the packs")
     session.close()

@@ -3,7 +3,7 @@
 from typing import Any
 
 import pytest
-from selenium.webdriver import ActionChains, Keys
+from selenium.webdriver import Keys
 from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
 
 from drapery.banner.design import Banner
@@ -57,17 +57,55 @@ def test_the_start_page_has_our_own_designs(page: Any) -> None:
 
 
 def test_a_pattern_is_previewed_and_found_by_an_everyday_word(page: Any) -> None:
-    face = find(page, "img.face")
-    before = face.get_attribute("src")
-    pattern = find(page, "[data-pattern=creeper]")
-    ActionChains(page).move_to_element(pattern).perform()
-    wait_until(lambda: find(page, "img.face").get_attribute("src") != before)
-    is_now(page, "white")
+    cell = "return document.querySelector('[data-pattern=creeper] canvas').toDataURL()"
+    before = page.execute_script(cell)
+    click(page, "[data-dye=lime]")
+    wait_until(lambda: page.execute_script(cell) != before)
+    is_now(page, "lime")
     field = find(page, ".panel-patterns input")
     field.send_keys("pirate", Keys.ENTER)
-    is_now(page, "white skull:black")
+    is_now(page, "lime skull:black")
     click(page, "[data-dye=red]")
-    is_now(page, "white skull:red")
+    click(page, "[data-pattern=border]")
+    is_now(page, "lime skull:black border:red")
+
+
+def test_a_new_layer_differs_from_a_field_of_its_dye(page: Any) -> None:
+    click(page, "[data-dye=black]")
+    click(page, "[data-pattern=border]")
+    is_now(page, "black border:white")
+    click(page, "[data-dye=black]")
+    click(page, "[data-pattern=skull]")
+    is_now(page, "black border:white skull:black")
+
+
+def test_after_a_new_banner_a_dye_goes_to_the_field(page: Any) -> None:
+    click(page, "[data-pattern=creeper]")
+    click(page, "#panel-start [data-act=new]")
+    click(page, "[data-dye=red]")
+    is_now(page, "red")
+    click(page, "button[aria-label=Undo]")
+    click(page, "button[aria-label=Undo]")
+    is_now(page, "white creeper:black")
+
+
+SEEN = """
+const [dye, done] = arguments;
+const { viewer } = document.querySelector(".viewer");
+document.querySelector(`[data-dye=${dye}]`).click();
+done(viewer.players[0].text);
+"""
+
+
+def test_an_edit_is_drawn_without_the_server_which_hears_of_it_later(page: Any) -> None:
+    player = "return !!document.querySelector('.viewer').viewer?.players.length"
+    wait_until(lambda: page.execute_script(player))
+    is_now(page, "white")
+    page.execute_script("window.socket.disconnect()")
+    assert page.execute_async_script(SEEN, "lime") == "lime"
+    is_now(page, "white")
+    page.execute_script("window.socket.connect()")
+    is_now(page, "lime")
 
 
 def test_a_page_that_is_loaded_again_has_its_undo(page: Any) -> None:
@@ -178,7 +216,8 @@ def test_the_page_speaks_the_language_of_the_browser(chromium: Any, studio: Stud
         assert find(chromium, "[data-dye=light_blue]").get_attribute("title") == "Hellblau"
         assert chromium.execute_script(CUT) == []
         click(chromium, "[data-pattern=cross]")
-        heading = ".panel-palette h2"
-        wait_until(lambda: find(chromium, heading).text == "Farbe von Lage 1: Andreaskreuz")
+        wait_until(lambda: find(chromium, ".layer-name b").text == "Andreaskreuz")
+        click(chromium, ".layer-list .layer")
+        assert find(chromium, ".panel-palette h2").text == "Lage 1: Andreaskreuz"
     finally:
         chromium.execute_cdp_cmd("Network.setExtraHTTPHeaders", {"headers": {}})

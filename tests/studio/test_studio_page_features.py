@@ -51,10 +51,10 @@ def test_a_give_command_has_player_count_name_and_lore(page: Any) -> None:
 
 
 def test_banner_and_shield_stand_side_by_side(page: Any) -> None:
-    kinds = "return [...document.querySelectorAll('#panel-face img')].map((e) => e.dataset.kind)"
-    assert page.execute_script(kinds) == ["banner", "shield"]
+    widths = "return [...document.querySelectorAll('#panel-face canvas')].map((e) => e.width)"
+    wait_until(lambda: page.execute_script(widths) == [20, 12])
     click(page, ".face-other")
-    wait_until(lambda: page.execute_script(kinds) == ["shield", "banner"])
+    wait_until(lambda: page.execute_script(widths) == [12, 20])
     wait_until(lambda: value(page, "written").startswith("/give @p minecraft:shield"))
 
 

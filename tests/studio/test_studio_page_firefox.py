@@ -53,8 +53,6 @@ def test_a_banner_is_designed_waves_and_becomes_a_file(page: Firefox) -> None:
     page.click("[data-dye=black]")
     page.press("/", *"pirate", ENTER)
     is_now(page, "black skull:white")
-    page.click("[data-dye=red]")
-    is_now(page, "black skull:red")
     page.click("input.title")
     page.press(*"Jolly Roger", TAB)
     wait_until(lambda: page.ask("document.title").startswith("Jolly Roger - "))

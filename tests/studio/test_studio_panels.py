@@ -26,7 +26,6 @@ from drapery.studio.file_field import FileField
 from drapery.studio.library import Library
 from drapery.studio.pack_store import PackStore
 from drapery.studio.panels import (
-    bar,
     export,
     file_options,
     letters,
@@ -34,7 +33,6 @@ from drapery.studio.panels import (
     packs,
     picture,
     start,
-    steps,
     written,
 )
 from drapery.studio.panels.file_options import FileChoice
@@ -320,16 +318,6 @@ def test_the_corners_of_a_flag_that_is_not_found_are_clicked(
     in_page(build)
 
 
-def test_after_a_new_banner_a_dye_goes_to_the_field(in_page: Callable[..., None]) -> None:
-    async def build(client: Client, session: Session) -> None:
-        session.selection.press_pattern("minecraft:creeper")
-        bar.start_anew(session)
-        session.selection.press_dye("red")
-        assert session.sketch.base == "red"
-
-    in_page(build)
-
-
 def test_a_deleted_design_comes_back_after_another_is_opened(
     in_page: Callable[..., None], tmp_path: Path
 ) -> None:
@@ -390,13 +378,13 @@ def test_a_file_has_the_fields_of_the_options_that_apply_to_it(
     in_page(build)
 
 
-@pytest.mark.parametrize("panel", [start, letters, steps])
+@pytest.mark.parametrize("panel", [start, letters])
 def test_elements_stay_where_they_are_while_packs_change(
     panel: ModuleType, in_page: Callable[..., None]
 ) -> None:
     async def check(client: Client, session: Session) -> None:
         for base in ("red", "blue", "lime"):
-            session.selection.lay_out(sketch_of(Banner(base)))
+            session.lay_out(sketch_of(Banner(base)))
         with client:
             panel.build(session)
         before = {**client.elements}

@@ -1,21 +1,28 @@
-"""Designs under work: strokes keep their names, edits keep the rest, and all can be undone."""
+"""Designs under work: what the page's editor sends, and who hears of it."""
 
+import json
 from dataclasses import replace
-from itertools import pairwise
+from typing import Any
 
 import pytest
 from hypothesis import given, strategies as st
 
-from drapery import Banner
+from drapery import Banner, Settings
 from drapery.banner.design import MAX_LAYERS, Layer
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError, OptionError, PackError
-from drapery.studio import sketch as edits
 from drapery.studio.descriptions import described
-from drapery.studio.history import LIMIT, History
 from drapery.studio.session import MAX_SESSIONS, Session, Sessions
-from drapery.studio.sketch import Sketch, banner_of, sketch_of
+from drapery.studio.sketch import (
+    MAX_ORIGIN,
+    MAX_TITLE,
+    Sketch,
+    banner_of,
+    edited_sketch,
+    editor_tree,
+    sketch_of,
+)
 
 LAYERS = st.builds(Layer, st.sampled_from(PATTERN_NAMES), st.sampled_from(DYE_NAMES))
 BANNERS = st.builds(
@@ -32,92 +39,61 @@ def test_a_banner_comes_back_from_its_sketch(banner: Banner) -> None:
     assert banner_of(sketch_of(banner)) == banner
 
 
-@given(BANNERS.filter(lambda banner: banner.layers), st.data())
-def test_a_move_keeps_the_others_in_order(banner: Banner, data: st.DataObject) -> None:
-    sketch = sketch_of(banner)
-    number = data.draw(st.sampled_from([stroke.number for stroke in sketch.strokes]))
-    place = data.draw(st.integers(-3, 20))
-    moved = edits.move(sketch, number, place)
-    others = [stroke for stroke in sketch.strokes if stroke.number != number]
-    assert [stroke for stroke in moved.strokes if stroke.number != number] == others
-    assert edits.place_of(moved, number) == min(max(place, 0), len(others))
+@given(BANNERS, st.text(max_size=90), st.integers(0, MAX_ORIGIN - 1))
+def test_the_editor_of_the_page_gives_back_what_it_gets(
+    banner: Banner, title: str, origin: int
+) -> None:
+    sketch = replace(sketch_of(banner), title=title, origin=origin)
+    again = edited_sketch(json.loads(json.dumps(editor_tree(sketch))))
+    assert replace(again, title="") == replace(sketch, title="")
+    assert again.title.isprintable() and len(again.title) <= MAX_TITLE
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"base": "mauve"},
+        {"kind": "tent"},
+        {"layers": [{"pattern": "creeper", "dye": "lime"}] * (MAX_LAYERS + 1)},
+        {"layers": [{"pattern": "../x", "dye": "lime"}]},
+        {"layers": [{"pattern": "creeper"}]},
+        {"layers": "creeper"},
+        {"layers": [7]},
+        {"title": 7},
+        {"origin": -1},
+        {"origin": "1"},
+    ],
+)
+def test_what_is_no_design_of_an_editor_is_refused(change: dict[str, Any]) -> None:
+    tree = editor_tree(THREE)
+    assert edited_sketch(tree) == THREE
+    for wrong in (tree | change, None, [], {}):
+        with pytest.raises(DesignError):
+            edited_sketch(wrong)
 
 
 def test_a_hidden_stroke_is_stored_but_not_drawn() -> None:
-    hidden = edits.hide(THREE, 2)
+    strokes = (THREE.strokes[0], replace(THREE.strokes[1], hidden=True), THREE.strokes[2])
+    hidden = edited_sketch(editor_tree(replace(THREE, strokes=strokes)))
+    assert hidden.strokes == strokes
     assert [layer.pattern for layer in banner_of(hidden).layers] == ["creeper", "flower"]
-    assert edits.hide(hidden, 2) == THREE
-
-
-def test_a_copy_lies_on_its_original_under_a_new_name() -> None:
-    copied = edits.duplicate(THREE, 1)
-    assert [stroke.pattern for stroke in copied.strokes] == [
-        *("creeper", "creeper", "border", "flower")
-    ]
-    assert len({stroke.number for stroke in copied.strokes}) == 4
-    assert edits.remove(copied, copied.strokes[1].number) == THREE
-
-
-def test_a_stroke_is_changed_in_its_place() -> None:
-    changed = edits.repattern(edits.recolour(THREE, 2, "blue"), 2, "Lozenge")
-    assert changed.strokes[1] == replace(THREE.strokes[1], pattern="rhombus", dye="blue")
-    assert (changed.strokes[0], changed.strokes[2]) == (THREE.strokes[0], THREE.strokes[2])
-    assert edits.dye_field(THREE, "silver").base == "light_gray"
-    assert edits.clear(THREE) == replace(THREE, strokes=())
-
-
-def test_impossible_edits_are_refused() -> None:
-    full = sketch_of(Banner("white", (Layer("cross", "red"),) * MAX_LAYERS))
-    for edit in (
-        lambda: edits.add(full, "border", "red"),
-        lambda: edits.duplicate(full, 1),
-        lambda: edits.add(THREE, "cabbage", "red"),
-        lambda: edits.recolour(THREE, 1, "mauve"),
-        lambda: edits.move(THREE, 9, 0),
-        lambda: edits.remove(THREE, 0),
-    ):
-        with pytest.raises(DesignError):
-            edit()
-
-
-@given(st.integers(0, 2**32))
-def test_a_random_design_is_the_same_for_the_same_seed(seed: int) -> None:
-    sketch = edits.random_sketch(seed)
-    assert sketch == edits.random_sketch(seed)
-    layers = [Layer("base", sketch.base), *banner_of(sketch).layers]
-    assert all(low.dye != high.dye for low, high in pairwise(layers))
-    assert 2 <= len(sketch.strokes) <= 6
-
-
-@given(st.lists(st.sampled_from(["undo", "redo"]) | st.integers(0, 3)))
-def test_undo_then_redo_changes_nothing(steps: list[str | int]) -> None:
-    history = History(0)
-    for step in steps:
-        history = history.push(step) if isinstance(step, int) else getattr(history, step)()
-        if history.past:
-            assert history.undo().redo() == history
-        if history.future:
-            assert history.redo().undo() == history
-        assert len(history.past) <= LIMIT
-
-
-def test_history_is_bounded_and_an_equal_state_adds_no_step() -> None:
-    history = History(0)
-    for state in range(LIMIT + 50):
-        history = history.push(state)
-    assert len(history.past) == LIMIT
-    assert history.push(history.present) is history
 
 
 def test_a_session_notifies_of_edits() -> None:
     session, events = Session(), []
-    session.listen(lambda: events.append(session.sketch), "sketch")
+    session.listen(lambda: events.append(("sketch", session.sketch)), "sketch")
+    session.listen(lambda: events.append(("laid", session.sketch)), "laid")
     session.edit(THREE)
-    session.edit(THREE)
-    session.undo()
-    session.undo()
-    session.redo()
-    assert events == [THREE, Sketch(), THREE]
+    session.take(THREE)
+    session.take(Sketch())
+    session.name(" Flag ")
+    named = Sketch(title="Flag")
+    assert events == [
+        *(("sketch", THREE), ("laid", THREE), ("sketch", Sketch())),
+        *(("sketch", named), ("laid", named)),
+    ]
+    assert session.states == (Sketch(), THREE, named)
+    session.close()
 
 
 def test_settings_out_of_bounds_change_nothing(tmp_path) -> None:
@@ -157,58 +133,21 @@ def test_of_too_many_sessions_the_oldest_ends() -> None:
     assert len(sessions) == 0
 
 
-def test_a_click_dyes_what_is_chosen() -> None:
-    session = Session()
-    selection = session.selection
-    selection.press_dye("blue")
-    selection.press_pattern("creeper")
-    selection.press_dye("red")
-    selection.press_pattern("border")
-    selection.choose(1)
-    selection.press_dye("lime")
-    assert banner_of(session.sketch) == Banner.parse("blue creeper:lime border:red")
-    selection.set_swaps(True)
-    selection.press_pattern("skull")
-    selection.act_on_chosen("move", 1)
-    assert banner_of(session.sketch) == Banner.parse("blue border:red skull:lime")
-    selection.act_on_chosen("remove")
-    assert selection.chosen is None and not selection.swaps
-    session.close()
-
-
-def test_a_new_layer_is_chosen_so_that_a_dye_recolours_it() -> None:
-    selection = (session := Session()).selection
-    selection.press_pattern("creeper")
-    assert selection.chosen == 1
-    selection.press_dye("lime")
-    assert banner_of(session.sketch) == Banner.parse("white creeper:lime")
-    session.close()
-
-
-@pytest.mark.parametrize(("field", "dye"), [("black", "white"), ("white", "black")])
-def test_a_new_pattern_differs_from_the_field(field: str, dye: str) -> None:
-    selection = (session := Session()).selection
-    selection.press_dye("red")
-    selection.press_dye(field)
-    assert selection.pattern_dye == dye
-    selection.press_pattern("skull")
-    assert banner_of(session.sketch) == Banner.parse(f"{field} skull:{dye}")
-    selection.press_dye(field)
-    assert selection.pattern_dye == dye
-    session.close()
-
-
 def test_a_repeated_edit_belongs_to_the_same_design_and_another_design_does_not() -> None:
-    selection = (session := Session()).selection
-    selection.lay_out(sketch_of(Banner.parse("red creeper:lime")))
+    session = Session()
+    session.lay_out(sketch_of(Banner.parse("red creeper:lime")))
     first = session.sketch.origin
-    selection.press_pattern("border")
-    selection.lay_out(session.sketch, same=True)
+    session.lay_out(sketch_of(Banner.parse("red creeper:lime border:blue")), same=True)
     assert session.sketch.origin == first
-    selection.lay_out(sketch_of(Banner.parse("blue")))
+    session.lay_out(sketch_of(Banner.parse("blue")))
     assert session.sketch.origin != first
-    session.undo()
-    assert session.sketch.origin == first
+    session.close()
+
+
+def test_a_shield_is_not_on_a_wall() -> None:
+    session = Session(Settings(placement="wall", facing="east"))
+    session.take(Sketch(kind="shield"))
+    assert session.settings.placement == "standing" and session.settings.facing is None
     session.close()
 
 

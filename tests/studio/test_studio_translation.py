@@ -13,6 +13,7 @@ from nicegui import Client, core
 from nicegui.element import Element
 from nicegui.page import page
 
+from drapery import Banner
 from drapery.banner import DYES, FORMS, PATTERNS
 from drapery.settings import OPTIONS
 from drapery.studio import translation
@@ -21,6 +22,7 @@ from drapery.studio.design_catalogue import own_designs
 from drapery.studio.page import build as build_page
 from drapery.studio.panels.live import garment_descriptions, scene_summaries
 from drapery.studio.session import Sessions
+from drapery.studio.sketch import sketch_of
 from drapery.studio.translation import GAME_LANGUAGES, catalogue, chosen, translated
 
 SCOPE = {
@@ -54,8 +56,8 @@ def test_a_catalogue_has_the_same_texts_as_the_others_and_keeps_what_is_filled_i
 
 
 def test_a_text_without_a_page_or_a_translation_is_english() -> None:
-    assert translated("Undo") == "Undo"
-    assert catalogue("de")["Undo"] == "Rückgängig"
+    assert translated("Untitled") == "Untitled"
+    assert catalogue("de")["Untitled"] == "Ohne Titel"
     assert catalogue("en") == {}
 
 
@@ -81,7 +83,7 @@ def test_every_text_and_choice_of_the_page_is_in_the_catalogues(
             build_page(session, sessions)
             for summary in (*scene_summaries().values(), *garment_descriptions().values()):
                 named("", summary)
-            session.selection.press_pattern("creeper")
+            session.take(sketch_of(Banner.parse("white creeper:black")))
             for element in client.elements.values():
                 shown.update(texts_of(element))
 

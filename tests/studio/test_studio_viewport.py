@@ -160,7 +160,7 @@ def test_a_garment_that_is_left_gives_back_the_options_of_the_banner(scene: str 
 def test_a_shield_comes_back_from_a_garment_without_the_wall_of_its_banner() -> None:
     session = Session(Settings(placement="wall", facing="east"))
     wear(session, "flag")
-    session.selection.switch_kind()
+    session.edit(Sketch(kind="shield"))
     wear(session, None)
     assert session.settings.placement == "standing" and session.settings.facing is None
     session.close()
@@ -185,7 +185,7 @@ def test_the_browser_gets_scenes_kernels_viewer_and_pictures(
     header, _ = unpack(page.get(scene).content)
     assert header["sheets"][:2] == ["", "base"]
     assert page.get(shown["module"]).content[:4] == b"\0asm"
-    assert "export { LiveViewer };" in page.get("viewer.js").text
+    assert "export { LiveViewer, StudioDesigner };" in page.get("viewer.js").text
     still = page.get(shown["pictures"][0])
     assert still.headers["content-type"] == "image/png"
     assert Image.open(io.BytesIO(still.content)).size == (24, 32)

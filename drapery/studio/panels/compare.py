@@ -13,9 +13,6 @@ from drapery.studio.sketch import Sketch, banner_of
 from drapery.studio.translation import translated
 from drapery.studio.widgets import KeptElements, VersusSlider, button, hint, translated_text
 
-MAX_STEPS = 24
-"""The most designs of the history that can be chosen."""
-
 
 def build(session: Session) -> None:
     """The choice of the other design, among those of the history, and the slider."""
@@ -27,10 +24,9 @@ def build(session: Session) -> None:
     )
 
     def states() -> dict[str, Sketch]:
-        """The latest designs of the history by their names in the list, and the kept one."""
-        found = {str(place): each for place, each in enumerate(session.history.states)}
-        latest = dict(list(found.items())[-MAX_STEPS:])
-        return latest if kept is None or kept in latest.values() else {"kept": kept, **latest}
+        """The latest designs of the tab by their names in the list, and the kept one."""
+        found = {str(place): each for place, each in enumerate(session.states)}
+        return found if kept is None or kept in found.values() else {"kept": kept, **found}
 
     def choices() -> dict[str, str]:
         nothing = {"": translated("nothing")}

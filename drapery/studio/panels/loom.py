@@ -56,7 +56,7 @@ def build(session: Session) -> None:
 def simplify_design(session: Session) -> None:
     """Leave out the layers that change no texel. Raises DesignError or PackError."""
     banner = simplify(banner_of(session.sketch), session.packs())
-    session.selection.lay_out(sketch_of(banner, session.sketch.title), same=True)
+    session.lay_out(sketch_of(banner, session.sketch.title), same=True)
 
 
 def _recipe(session: Session, banner: Banner) -> str:

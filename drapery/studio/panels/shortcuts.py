@@ -13,7 +13,6 @@ _KEYS = {
         ("N", "new banner"),
         ("R", "random design"),
         ("B", "banner or shield"),
-        ("M", "survival or commands"),
         ("/", "find a pattern; Enter adds it"),
         ("Ctrl+V", "read a design from the clipboard"),
     ),

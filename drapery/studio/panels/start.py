@@ -1,6 +1,7 @@
 """The start page: designs to begin with."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 from nicegui import ui
@@ -20,11 +21,8 @@ def build(session: Session) -> None:
     """A new design, and our own designs in their groups; each can be changed."""
     translated_text("Begin with a design", "h2").classes("heading")
     with ui.element("div").classes("line"):
-        button(
-            "New banner",
-            lambda: session.selection.lay_out(Sketch(), chosen="field"),
-            text="New banner",
-        ).classes("primary")
+        new = button("New banner", text="New banner").classes("primary")
+        new.props["data-act"] = "new"
         for name, label in (("library", "Open from the library"), ("text", "Open a text or file")):
             button(label, partial(_show_tab, name), text=label)
     _recent(session)
@@ -69,7 +67,7 @@ def build_examples(session: Session) -> None:
         _designs(session, [design for design in own_designs() if design.title in EXAMPLES])
 
     def show() -> None:
-        welcome.set_visibility(session.sketch == Sketch() and not session.history.past)
+        welcome.set_visibility(replace(session.sketch, origin=0) == Sketch())
 
     session.follow(show, "sketch")
 

@@ -86,7 +86,7 @@ def _arrive(session: Session, upload_queue: UploadQueue) -> None:
 
 def _open(session: Session, banner: Banner, title: str = "") -> None:
     sketch = sketch_of(banner, title or session.sketch.title)
-    session.selection.lay_out(sketch)
+    session.lay_out(sketch)
     show_notice(f"The design has been read. Layers: {len(sketch.strokes)}")
 
 

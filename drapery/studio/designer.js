@@ -1,0 +1,23 @@
+// The designer of the page, which lives in the page's places and not in this element.
+export default {
+  template: "<span hidden></span>",
+  props: { module: String, given: Object, faces: Object },
+  emits: ["design"],
+  watch: {
+    async faces(addresses) {
+      (await this.designer).redraw(addresses);
+    },
+  },
+  mounted() {
+    this.designer = this.open();
+  },
+  methods: {
+    async open() {
+      const { StudioDesigner } = await import(new URL(this.module, location.href));
+      return new StudioDesigner(this.given, this.faces, (design) => this.$emit("design", design));
+    },
+    async lay(design) {
+      (await this.designer).lay(design);
+    },
+  },
+};

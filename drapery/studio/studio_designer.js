@@ -1,0 +1,165 @@
+// The design of the page: the designer's editor in the studio's places. An edit is made and drawn here, and the
+// server is told of it.
+
+import { drawPixels, iconButton, kept, make } from "../web/designer/dom.js";
+import { Editor } from "../web/designer/editor.js";
+import { Faces } from "../web/designer/faces.js";
+import { History, shownOf, workOf, writeShorthand } from "../web/designer/model.js";
+import { STYLES } from "../web/designer/tables.js";
+
+const KEPT = "drapery-history"; // the key of the history in the browser's storage
+const SHOWN_STEPS = 12; // the most on the strip: those around the present one
+const MAX_TITLE = 80;
+const MAX_ORIGIN = 2 ** 48;
+const OTHER_KIND = { banner: "shield", shield: "banner" };
+
+// What the server knows of a design.
+const designOf = ({ base, kind, layers, title, origin }) => ({ base, kind, layers, title, origin });
+
+export class StudioDesigner {
+  // given: design, as `sketch.editor_tree` has it; language and words, as an Editor has them; token of the
+  // session. faces: the addresses of the files of faces by their kind. tell: takes each design for the server.
+  constructor({ design, language, words, token }, faces, tell) {
+    Object.assign(this, { token, tell, buttons: new Map() });
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(`.editor { ${STYLES.editor} }`);
+    document.adoptedStyleSheets.push(sheet);
+    this.editor = new Editor(this.opened(workOf(design)), {
+      openFaces: async (kind) => Faces.read(await (await fetch(this.faces[kind])).arrayBuffer()),
+      begin: (work) => ({ title: "", origin: Math.floor(Math.random() * MAX_ORIGIN), ...work }),
+      show: () => this.show(),
+      announce: () => this.announce(),
+    });
+    Object.assign(this.editor, { language, words, chosen: design.layers.length ? null : "field" });
+    document.querySelector(".studio").addEventListener("act", (event) => this.act(event.detail));
+    this.redraw(faces).then(() => this.announce());
+  }
+
+  // The history of a work. It goes on from the page that was loaded before at this place of the browser's
+  // history, whose last step is then the work, which is that of this page's address.
+  opened(work) {
+    const { token, history } = kept(() => JSON.parse(sessionStorage.getItem(KEPT))) ?? {};
+    const before = token === window.studio.earlier && History.read(history);
+    if (!before) return new History(work);
+    const plain = (each) => JSON.stringify({ ...designOf(workOf(each)), origin: 0 });
+    if (plain(before.work) !== plain(work)) before.change(work);
+    return before;
+  }
+
+  // Draw with the faces of packs.
+  async redraw(faces) {
+    const { editor } = this;
+    this.faces = faces;
+    await Promise.all(Object.keys(OTHER_KIND).map((kind) => editor.open(kind)));
+    this.buttons.clear();
+    const names = String(editor.faces?.patterns);
+    if (names !== this.names || !editor.controls) this.build();
+    this.names = names;
+    editor.show();
+  }
+
+  build() {
+    const { editor } = this;
+    editor.build();
+    const { parts, say } = editor;
+    this.title = make("input", {
+      type: "text", class: "title", placeholder: say("untitled"), "aria-label": say("titleOf"), maxLength: MAX_TITLE,
+      onchange: () => editor.change({ ...editor.work, title: this.title.value.trim() }),
+      onblur: () => this.show(),
+    });
+    this.other = make("canvas");
+    this.strip = make("div", { class: "steps-strip", role: "group", "aria-label": say("history") });
+    const fresh = iconButton("plus", say("new"), () => this.act("new"));
+    const placed = {
+      tools: [this.title, parts.undo, parts.redo, fresh, parts.random, parts.clear, parts.kind],
+      dyes: parts.dyes, layers: [...parts.layers, parts.status], patterns: parts.patterns ?? [],
+      face: [parts.flat], other: [this.other], steps: [this.strip],
+    };
+    for (const [name, nodes] of Object.entries(placed)) document.querySelector(`[data-part="${name}"]`)?.replaceChildren(...nodes);
+  }
+
+  // What an address, a library or a text holds becomes the design.
+  lay(design) {
+    const before = this.editor.work;
+    this.editor.begin(workOf(design));
+    if (this.editor.work === before) this.announce(); // the server may have heard of another one since
+  }
+
+  announce() {
+    const { work, history } = this.editor;
+    kept(() => sessionStorage.setItem(KEPT, JSON.stringify({ token: this.token, history: history.write() })));
+    document.dispatchEvent(new CustomEvent("drapery-change", { detail: { text: writeShorthand(shownOf(work)) } }));
+    this.tell(designOf(work));
+  }
+
+  // Do what a key or a button of the page stands for.
+  act(what) {
+    const { editor } = this;
+    const { work, chosen, acts } = editor;
+    const doing = {
+      undo: () => editor.go("undo"),
+      redo: () => editor.go("redo"),
+      new: () => editor.begin(workOf({ base: "white", kind: work.kind, layers: [] }), "field"),
+      random: () => editor.random(),
+      kind: () => editor.setKind(OTHER_KIND[work.kind]),
+      none: () => acts.select(null),
+    };
+    const ofLayer = {
+      up: () => work.layers[chosen + 1] && acts.move(chosen, chosen + 1),
+      down: () => chosen > 0 && acts.move(chosen, chosen - 1),
+      hide: () => acts.hide(chosen),
+      duplicate: () => acts.double(chosen),
+      remove: () => acts.remove(chosen),
+    };
+    (doing[what] ?? (typeof chosen === "number" ? ofLayer[what] : null))?.();
+  }
+
+  show() {
+    const { work, every } = this.editor;
+    if (document.activeElement !== this.title) this.title.value = work.title;
+    const other = every[OTHER_KIND[work.kind]];
+    if (other) drawPixels(this.other, other.face(shownOf(work)));
+    this.showSteps();
+  }
+
+  // The states around the present one; a button that is still shown stays, because a click on one that is
+  // replaced is lost.
+  showSteps() {
+    const { past, work, future } = this.editor.history;
+    const states = [...past, work, ...future.toReversed()];
+    const first = Math.max(0, Math.min(past.length - SHOWN_STEPS / 2, states.length - SHOWN_STEPS));
+    const shown = states.length > 1 ? states.slice(first, first + SHOWN_STEPS) : [];
+    this.buttons = new Map(shown.map((state) => [state, this.buttons.get(state) ?? this.step(state)]));
+    const focused = document.activeElement;
+    const buttons = [...this.buttons.values()];
+    if (buttons.some((each, at) => this.strip.children[at] !== each) || buttons.length !== this.strip.children.length) this.strip.replaceChildren(...buttons);
+    if (this.strip.contains(focused)) focused.focus();
+    buttons.forEach((each, at) => {
+      each.ariaCurrent = first + at === past.length ? "step" : "false";
+      each.ariaLabel = each.title = this.editor.say("step", { number: first + at + 1, design: this.described(shown[at]) });
+    });
+  }
+
+  step(state) {
+    const canvas = make("canvas");
+    const faces = this.editor.every[state.kind];
+    if (faces) drawPixels(canvas, faces.small.face(shownOf(state)));
+    return make("button", { type: "button", class: "step", onclick: () => this.goTo(state) }, canvas);
+  }
+
+  described(work) {
+    const { dyeTitle, caption, say } = this.editor;
+    const layers = shownOf(work).layers.map(({ pattern, dye }) => say("layerIn", { pattern: caption(pattern), dye: dyeTitle(dye) }));
+    return [dyeTitle(work.base), ...layers].join("; ");
+  }
+
+  goTo(state) {
+    const { editor } = this;
+    const { history } = editor;
+    const way = history.past.includes(state) ? "undo" : "redo";
+    while (history.work !== state && history[way]());
+    editor.chosen = null;
+    editor.show();
+    this.announce();
+  }
+}
