@@ -36,13 +36,13 @@ export class StudioDesigner {
   }
 
   // The history of a work. It goes on from the page that was loaded before at this place of the browser's
-  // history, whose last step is then the work, which is that of this page's address.
+  // history; a work that is not in it, of an address, becomes its last step.
   opened(work) {
     const { token, history } = kept(() => JSON.parse(sessionStorage.getItem(KEPT))) ?? {};
     const before = token === window.studio.earlier && History.read(history);
     if (!before) return new History(work);
     const plain = (each) => JSON.stringify({ ...designOf(workOf(each)), origin: 0 });
-    if (plain(before.work) !== plain(work)) before.change(work);
+    if (![before.work, ...before.past, ...before.future].map(plain).includes(plain(work))) before.change(work);
     return before;
   }
 

@@ -29,7 +29,7 @@ def click(page: Any, selector: str) -> None:
 
 def is_now(page: Any, design: str) -> None:
     wanted = write_banner(Banner.parse(design), "give")
-    script = "return document.getElementById('written').value"
+    script = "return document.getElementById('written')?.value"  # none while it is loaded again
     wait_until(lambda: page.execute_script(script) == wanted)
 
 
