@@ -1,7 +1,7 @@
 // The design of the page: the designer's editor in the studio's places. An edit is made and drawn here, and the
 // server is told of it.
 
-import { drawPixels, iconButton, kept, make } from "../web/designer/dom.js";
+import { HIDDEN, drawPixels, iconButton, kept, make } from "../web/designer/dom.js";
 import { Editor } from "../web/designer/editor.js";
 import { Faces } from "../web/designer/faces.js";
 import { History, shownOf, workOf, writeShorthand } from "../web/designer/model.js";
@@ -67,7 +67,7 @@ export class StudioDesigner {
       onchange: () => editor.change({ ...editor.work, title: this.title.value.trim() }),
       onblur: () => this.show(),
     });
-    this.other = make("canvas");
+    this.other = make("canvas", HIDDEN);
     this.strip = make("div", { class: "steps-strip", role: "group", "aria-label": say("history") });
     const fresh = iconButton("plus", say("new"), () => this.act("new"));
     const placed = {
@@ -141,7 +141,7 @@ export class StudioDesigner {
   }
 
   step(state) {
-    const canvas = make("canvas");
+    const canvas = make("canvas", HIDDEN);
     const faces = this.editor.every[state.kind];
     if (faces) drawPixels(canvas, faces.small.face(shownOf(state)));
     return make("button", { type: "button", class: "step", onclick: () => this.goTo(state) }, canvas);

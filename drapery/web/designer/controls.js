@@ -1,7 +1,7 @@
 // The dyes, the patterns, and numbers with a slider.
 
 import { TABLES } from "../component/tables.js";
-import { make, roving } from "./dom.js";
+import { HIDDEN, make, roving } from "./dom.js";
 import { foundPatterns } from "./search.js";
 
 /** A group of sixteen dyes. choose: called with a dye's name.
@@ -27,7 +27,7 @@ export class PatternGrid {
   constructor(patterns, choose, words) {
     this.patterns = patterns;
     this.cells = patterns.map((pattern) => {
-      const canvas = make("canvas");
+      const canvas = make("canvas", HIDDEN);
       const label = { "aria-label": pattern.title, title: pattern.title, "data-pattern": pattern.name };
       const caption = make("span", { class: "caption", "aria-hidden": "true" }, pattern.caption);
       const button = make("button", { type: "button", class: "pattern", ...label, tabIndex: -1, onclick: () => choose(pattern.name) }, canvas, caption);

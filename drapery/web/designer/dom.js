@@ -14,6 +14,9 @@ export function make(tag, words = {}, ...inside) {
   return element;
 }
 
+/** What a picture has that the name of its button tells. */
+export const HIDDEN = { "aria-hidden": "true" };
+
 const SHAPES = {
   undo: "M9 14 4 9l5-5M4 9h10a6 6 0 0 1 0 12h-3",
   redo: "m15 14 5-5-5-5M20 9H10a6 6 0 0 0 0 12h3",

@@ -3,7 +3,7 @@
 
 import { TABLES } from "../component/tables.js";
 import { PatternGrid, dyeButtons, segments } from "./controls.js";
-import { drawPixels, iconButton, make } from "./dom.js";
+import { HIDDEN, drawPixels, iconButton, make } from "./dom.js";
 import { unlike } from "./faces.js";
 import { LayerList } from "./layers.js";
 import { changedLayer, duplicatedLayer, movedLayer, shownOf, withLayer, withoutLayer, workOf } from "./model.js";
@@ -198,7 +198,7 @@ export class Editor {
       dyes: [make("div", { class: "mode-line" }, heading, hint, done), dyes.group],
       patterns: grid && [make("div", { class: "search" }, make("h2", {}, say("patterns")), grid.field, grid.count), grid.nothing, grid.grid],
       layers: [make("div", { class: "head" }, make("h2", {}, say("layers")), count), empty, list.list],
-      flat: make("canvas", { class: "flat" }),
+      flat: make("canvas", { class: "flat", ...HIDDEN }),
       find: grid?.field,
     };
   }

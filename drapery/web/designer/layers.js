@@ -1,6 +1,6 @@
 // The list of layers, the highest first, and the field below them.
 
-import { drawPixels, icon, iconButton, make, roving } from "./dom.js";
+import { HIDDEN, drawPixels, icon, iconButton, make, roving } from "./dom.js";
 
 /** @typedef {import("./model.js").Work} Work */
 /** @typedef {{ select(at: number | "field" | null): void, move(from: number, to: number): void, hide(at: number): void, remove(at: number): void, double(at: number): void }} Acts */
@@ -38,7 +38,7 @@ export class LayerList {
     const { acts, say, titles } = this;
     const title = say("layerIn", { pattern: titles.pattern(layer.pattern), dye: titles.dye(layer.dye) });
     const [plain, heraldic] = titles.pattern(layer.pattern).split(" / ");
-    const canvas = make("canvas");
+    const canvas = make("canvas", HIDDEN);
     const ground = { base: layer.dye === "white" || layer.dye === "light_gray" ? "gray" : CHECKS, layers: [layer] };
     drawPixels(canvas, faces.face(ground));
     const button = make("button", {
@@ -56,7 +56,7 @@ export class LayerList {
 
   /** @param {string} base @param {boolean} isChosen @param {import("./faces.js").Faces} faces */
   fieldRow(base, isChosen, faces) {
-    const canvas = make("canvas");
+    const canvas = make("canvas", HIDDEN);
     drawPixels(canvas, faces.face({ base, layers: [] }));
     const name = make("span", { class: "layer-name" }, make("b", {}, this.say("field")), make("small", {}, this.titles.dye(base)));
     const button = make("button", { type: "button", class: "layer", "aria-pressed": String(isChosen), onclick: () => this.acts.select(isChosen ? null : "field") }, canvas, name);
