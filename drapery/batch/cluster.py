@@ -180,7 +180,16 @@ def _one(job: Job, store: Store, limits: JobLimits, artifacts: Mapping[str, Arti
         result = run_job(here, store) if _must_stay(store) else _guarded(here, store, limits)
     except MemoryError:
         return JobResult(job, OUT_OF_MEMORY, True)
-    return replace(result, job=job)
+    fault = None if result.error is None else _named(result.error, job, here)
+    noted = tuple(_named(warning, job, here) for warning in result.warnings)
+    return replace(result, job=job, error=fault, warnings=noted)
+
+
+def _named(text: str, job: Job, here: Job) -> str:
+    """A text of a worker with the paths that a job gives to files, in place of the worker's."""
+    for its, given in zip(paths_of(here), paths_of(job), strict=True):
+        text = text.replace(str(its), str(given))
+    return text
 
 
 def local_cluster(workers: int, store: Store, limits: JobLimits) -> DaskExecutor:

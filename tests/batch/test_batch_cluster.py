@@ -95,6 +95,16 @@ def test_packs_travel_as_the_same_bytes(tmp_path: Path, monkeypatch) -> None:
     assert pictures(tmp_path / "here") == pictures(tmp_path / "there")
 
 
+def test_a_worker_names_packs_as_the_manifest_does(tmp_path: Path) -> None:
+    pack = make_pack(tmp_path / "pack")
+    (job,) = jobs.plan(read_manifest(manifest(tmp_path / "m.jsonl", 1, packs="pack")))
+    sent = {str(path): artifacts.bundle(path, DigestCache()) for path in artifacts.paths_of(job)}
+    (result,) = cluster.task([job], RemoteStore("memory://drapery/named"), JobLimits(), sent)
+    assert result.error is None and result.warnings
+    assert all(str(pack) in warning for warning in result.warnings)
+    assert not any("drapery-packs-" in warning for warning in result.warnings)
+
+
 def test_a_store_that_cannot_be_listed_is_no_empty_store(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
