@@ -111,6 +111,12 @@ def test_every_extra_is_explained() -> None:
     assert sorted(explained) == sorted(PROJECT["optional-dependencies"])
 
 
+def test_the_site_is_built_with_what_breaks_signatures_into_lines() -> None:
+    """Without it mkdocstrings says nothing, and leaves each signature in one line."""
+    assert "separate_signature: true" in (ROOT / "mkdocs.yml").read_text("utf-8")
+    assert any(each.startswith("ruff") for each in PROJECT["optional-dependencies"]["docs"])
+
+
 def test_the_forms_of_issues_can_be_filled_in() -> None:
     folder = ROOT / ".github" / "ISSUE_TEMPLATE"
     forms = [path for path in folder.glob("*.yml") if path.stem != "config"]
