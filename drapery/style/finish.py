@@ -54,10 +54,10 @@ class Finish:
 def twill() -> Surface:
     """Wool: ribs that run up to the right, under a nap of short fibres."""
     y, x = _places()
-    rib = 0.5 + 0.5 * sine_of_turns((x + y) * (20 / SIDE) + 0.15 * _clouds(16, 1))
+    rib = 0.5 + 0.5 * sine_of_turns((x + y) * (28 / SIDE) + 0.15 * _clouds(16, 1))
     nap, clouds = _strands(6, 2), _clouds(16, 4)
-    height = 1.2 * rib + 1.5 * nap
-    tone = 0.15 * (rib - 0.5) + 0.16 * (nap - 0.5) + 0.12 * (clouds - 0.5)
+    height = 0.6 * rib + 1.3 * nap
+    tone = 0.08 * (rib - 0.5) + 0.16 * (nap - 0.5) + 0.12 * (clouds - 0.5)
     return Surface(height, tone, np.ones_like(rib))
 
 

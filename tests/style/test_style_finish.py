@@ -80,6 +80,11 @@ def test_fabrics_can_be_told_apart_by_their_finish_alone() -> None:
         assert np.sqrt((difference * difference).mean()) > 4, (one, other)
 
 
+def test_the_ribs_of_the_default_fabric_are_quieter_than_the_weave_of_coarse_ones() -> None:
+    contrast = {name: texture_of(name, 512).std() for name in FINISHES}
+    assert contrast["wool"] < min(contrast[each] for each in ("linen", "canvas", "leather", "felt"))
+
+
 @pytest.mark.parametrize("name", FINISHES)
 def test_a_weave_fades_where_it_is_finer_than_a_pixel(name: str) -> None:
     fine, coarse = (texture_of(name, side).std() for side in (512, 48))
