@@ -15,12 +15,15 @@ import tempfile
 from collections.abc import Callable, Iterator
 from functools import partial
 from importlib.metadata import version
+from itertools import islice
 from pathlib import Path
 
 import llvmlite.binding
+import numpy as np
 
 from benchmarks.quick import add_quick
-from drapery import Animation, Banner, animate, draw, draw_face, save_model
+from drapery import Animation, Banner, animate, draw, draw_face, save_model, simulate
+from drapery.cloth import Gravity, Wind, grid, rest_state, solver as find_solver
 
 SOLVERS = ("desbrun", "xpbd", "pbd", "verlet", "implicit", "provot")
 VIEWS = ("front", "back", "iso", "gui", "hero")
@@ -35,6 +38,8 @@ def outputs() -> Iterator[tuple[str, Callable[[], bytes]]]:
         yield f"solver {solver}", partial(pixels, solver=solver, grid=(11, 21))
     for solver in ("desbrun", "xpbd"):
         yield f"sheet {solver}", partial(pixels, solver=solver, grid=(33, 65))
+    for solver in ("desbrun", "xpbd"):
+        yield f"crowd {solver}", partial(crowd, solver)
     for view in VIEWS:
         yield f"view {view}", partial(pixels, view=view, samples=4, shadow=True)
     yield "animation", lambda: b"".join(frame.pixels.tobytes() for frame in loop())
@@ -52,6 +57,14 @@ def pixels(**options: object) -> bytes:
 def loop() -> Animation:
     """A short loop."""
     return animate(DESIGN, seconds=1, fps=10, size=(96, 128), wind=8)
+
+
+def crowd(name: str) -> bytes:
+    """The positions of cloths that are simulated at once."""
+    wind = Wind((2.0, 0.0, 5.0), seed=4, phases=np.linspace(0, 9, 70))
+    start = rest_state(cloth := grid(5, 9, 0.8, 1.6), 70)
+    states = simulate(cloth, find_solver(name), [Gravity(), wind], start=start, every=20)
+    return next(islice(states, 1, None)).positions.tobytes()
 
 
 def saved(name: str, save: Callable[[Path], object]) -> bytes:

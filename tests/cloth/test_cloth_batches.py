@@ -73,15 +73,6 @@ def swung():
     return digest(moved(grid(5, 9, 0.8, 1.6), SolverXPBD(threads=1), blown(), COUNT))
 
 
-def test_another_processors_code_gives_the_same_bits(untraced_processes):
-    plain = os.environ | {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
-    program = PROGRAM.format(folders=FOLDERS)
-    there = subprocess.run(
-        [sys.executable, "-c", program], env=plain, capture_output=True, text=True, check=True
-    )
-    assert there.stdout.split() == [swung()]
-
-
 FORK = """
 import os, sys
 sys.path[:0] = {folders}

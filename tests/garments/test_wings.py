@@ -19,7 +19,7 @@ from drapery.testing import check_garment
 
 SPEEDS = {"walk": 2.0, "run": 4.0, "sneak": 1.0, "jump": 2.0, "glide": 8.0, "swim": 2.0}
 """How fast a player moves [m/s]; it stands in other motions."""
-STEP, SECONDS = 0.1, 6.0
+STEP, SECONDS = 0.1, 3.0
 SHOULDERS = 24 * TEXEL
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 

@@ -3,8 +3,6 @@
 import gc
 import hashlib
 import os
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -78,21 +76,6 @@ def test_drawing_in_parts_changes_no_bit(scene: Scene, monkeypatch: pytest.Monke
     whole = digest(scene)
     monkeypatch.setattr(soft, "MAX_RECORDS", 300)
     assert digest(scene) == whole
-
-
-@pytest.mark.usefixtures("untraced_processes")
-def test_the_kind_of_processor_changes_no_bit() -> None:
-    """Compiled for any x86-64 (or whatever is plainest) and for this very processor."""
-    program = "from test_render_soft import *; print(digest(medley()), digest(many_sheets()))"
-    environment = os.environ | {
-        "NUMBA_CPU_NAME": "generic",
-        "NUMBA_CPU_FEATURES": "",
-        "PYTHONPATH": os.pathsep.join(map(str, Path(__file__).parents[:2])),
-    }
-    done = subprocess.run(
-        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True
-    )
-    assert done.stdout.split() == [digest(medley()), digest(many_sheets())]
 
 
 def test_the_same_scene_gives_the_same_bits_again() -> None:
