@@ -21,11 +21,8 @@ from drapery.lazy import import_lazily
 if TYPE_CHECKING:
     from drapery.scenes.bodies import (
         STEP as STEP,
-        WIND_AXIS as WIND_AXIS,
         LiveBody as LiveBody,
         StagedBody as StagedBody,
-        flow as flow,
-        wind_of as wind_of,
     )
     from drapery.scenes.catalogue import (
         Clip as Clip,
@@ -36,6 +33,11 @@ if TYPE_CHECKING:
     from drapery.scenes.drawing import scene_frames as scene_frames
     from drapery.scenes.dressing import Dressed as Dressed
     from drapery.scenes.exploded import exploded_view as exploded_view
+    from drapery.scenes.forces import (
+        WIND_AXIS as WIND_AXIS,
+        flow as flow,
+        wind_of as wind_of,
+    )
     from drapery.scenes.garment_playing import (
         first_scene as first_scene,
         played_garment as played_garment,

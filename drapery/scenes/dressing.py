@@ -32,12 +32,11 @@ from drapery.garments.model import Garment, GarmentPole
 from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
 from drapery.render.scene import Model, RiggedModel, Scene
-from drapery.scenes.bodies import STEP, wind_of, with_finish
+from drapery.scenes.bodies import STEP, with_finish
+from drapery.scenes.forces import in_wind, wind_of
 from drapery.scenes.layered import common_bones, joint_contact, meet_each_other
-from drapery.scenes.moving import in_wind
 from drapery.scenes.recording import Drape, Meeting, Schedule, record
 from drapery.scenes.staging import Staging
-from drapery.scenes.styling import moved_by_style, tailored
 from drapery.scenes.wearers import Wearer, wearer_of
 from drapery.settings import Settings
 from drapery.style.block import turn_matrix
@@ -50,6 +49,7 @@ from drapery.style.piece import Piece
 from drapery.style.refinement import cells_per_cell
 from drapery.style.rig import moved_rig
 from drapery.style.scenery import pole, pole_frame
+from drapery.styles.cloth_models import moved_by_style, tailored
 
 WORN_STEP = STEP / 2
 """The longest time step of cloth on a wearer, whose legs move fast [s]."""

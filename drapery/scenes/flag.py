@@ -13,7 +13,8 @@ from drapery.scenes.backdrop import Backdrop
 from drapery.scenes.banners import design_materials
 from drapery.scenes.buildings import tower_on_hill
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.moving import LOOP, in_wind, looped_wind, motion
+from drapery.scenes.forces import in_wind
+from drapery.scenes.moving import LOOP, looped_wind, motion
 from drapery.scenes.parameters import (
     SceneParameters,
     grid_parameter,

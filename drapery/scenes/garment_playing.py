@@ -19,8 +19,8 @@ from drapery.garments.model import Garment, GarmentWearer
 from drapery.garments.motions import find_motion
 from drapery.garments.players import WING
 from drapery.render.scene import Scene
-from drapery.scenes.bodies import wind_of
 from drapery.scenes.dressing import MIDDLE, WORN_STEP, Dressed
+from drapery.scenes.forces import wind_of
 from drapery.scenes.layered import meet_each_other
 from drapery.scenes.player_motion import RAMP, STRIDE
 from drapery.scenes.playing import PlayedCloth, PlayedSubject, turning_of

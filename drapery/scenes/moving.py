@@ -82,14 +82,6 @@ def looped_wind(
     return Wind(velocity, gusts=gusts, gust_size=gust_size, seed=seed, period=LOOP)
 
 
-def in_wind(cloth: Cloth, wind: Wind) -> tuple[Force, ...]:
-    """Gravity and the wind on a cloth. The drag of a fabric is that in moving air, so it pulls
-    cloth along: drag * (wind - v) is a constant push beside the drag in still air."""
-    x, y, z = wind.velocity
-    drag = cloth.drag
-    return (Gravity(), wind, *((Gravity((drag * x, drag * y, drag * z)),) if drag else ()))
-
-
 def placed(cloth: Cloth, position: Array, rotation: Array | None = None) -> Cloth:
     """The cloth with another rest shape: rotation · x + position for each particle x [m]."""
     turn = np.eye(3) if rotation is None else rotation

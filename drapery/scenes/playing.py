@@ -24,13 +24,8 @@ from drapery.cloth.solvers.driver import functions_of
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.soft.live_picture import draw_live, make_live_picture
-from drapery.scenes.bodies import (
-    STEP,
-    StagedBody,
-    forces_of,
-    lee_of,
-    wind_of,
-)
+from drapery.scenes.bodies import STEP, StagedBody
+from drapery.scenes.forces import forces_of, lee_of, wind_of
 from drapery.scenes.recording import Schedule
 from drapery.scenes.staging import Staging
 from drapery.settings import Settings
