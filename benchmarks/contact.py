@@ -41,7 +41,7 @@ from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.solvers.registry import solver
 from drapery.mesh import Array
 from drapery.scenes import cape, skirt
-from drapery.scenes.gait import Gait
+from drapery.stage.gait import Gait
 from drapery.style.figure import TEXEL
 
 UNIT = 1 / 24

@@ -38,7 +38,7 @@ def draw(
     Raises DesignError if `banner` is something else, OptionError, PackError or BackendError.
     """
     design, chosen = _checked(banner, settings, options, "still")
-    from drapery.scenes.subjects import still
+    from drapery.stage.subjects import still
 
     packs = open_packs(chosen.packs, format=chosen.format)
     (frame,) = draw_scenes([still(design, packs, chosen)], packs, chosen)
@@ -92,7 +92,7 @@ def iter_frames(
 
     Raises DesignError, OptionError, PackError or BackendError, as `animate` does.
     """
-    from drapery.scenes.subjects import loop
+    from drapery.stage.subjects import loop
 
     design, chosen = _checked(banner, settings, options, "loop")
     packs = open_packs(chosen.packs, format=chosen.format)
@@ -130,7 +130,7 @@ def save_model(
     """
     from drapery.render.encode import check_target
     from drapery.render.export import save_scenes
-    from drapery.scenes.subjects import loop, still
+    from drapery.stage.subjects import loop, still
 
     design, chosen = _checked(banner, settings, options, "model")
     one_of("origin", origin, tuple(ORIGINS))

@@ -21,7 +21,7 @@ FOUNDATION = {
     *("json_text", "model_faults", "file_formats", "output_files"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
-PICTURES = {"scenes", "pictures", "comparison", "sheets", "match"}
+PICTURES = {"stage", "scenes", "pictures", "comparison", "sheets", "match"}
 APPLICATIONS = {"commands", "testing", "batch", "serve", "studio", "web", "beet", "cli", "__main__"}
 RINGS = (FOUNDATION, CORE, PICTURES, APPLICATIONS)
 """From the innermost ring to the outermost; none imports one that is further out."""
@@ -76,10 +76,11 @@ ALLOWED: dict[str, set[str]] = {
     "style": {"banner", "render", "cloth"},
     "styles": {"style", "render", "banner", "cloth"},
     "garments": {"style", "render", "banner", "cloth"},
-    "scenes": set(),
-    "pictures": {"scenes"},
-    "comparison": {"pictures", "scenes"},
-    "sheets": {"pictures", "comparison", "scenes"},
+    "stage": set(),
+    "scenes": {"stage"},
+    "pictures": {"stage"},
+    "comparison": {"pictures", "stage"},
+    "sheets": {"pictures", "comparison", "scenes", "stage"},
     "match": {"pictures", "sheets"},
     "testing": set(),
     "beet": {"testing"},

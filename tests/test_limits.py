@@ -152,7 +152,7 @@ def test_a_loop_has_a_largest_number_of_frames() -> None:
 
 
 def test_a_wind_script_has_a_largest_size(tmp_path: Path) -> None:
-    from drapery.scenes.wind_script import read_script
+    from drapery.stage.wind_script import read_script
 
     path = tmp_path / "script"
     path.write_text("\n" * (2**16 + 1), encoding="utf-8")

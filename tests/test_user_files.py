@@ -19,7 +19,7 @@ from drapery.garments.meshes import read_stiff_mesh
 from drapery.garments.motions import find_motion
 from drapery.match import read_pixels
 from drapery.packs import open_packs
-from drapery.scenes.wind_script import read_script
+from drapery.stage.wind_script import read_script
 from drapery.styles import Style
 from drapery.styles.palette_files import read_palette
 from drapery.testing.cases import read_cases

@@ -8,7 +8,7 @@ from drapery.banner.packs import open_packs
 from drapery.comparison.variants import Variant
 from drapery.errors import OptionError
 from drapery.render import Scene, backend
-from drapery.scenes.subjects import still
+from drapery.stage.subjects import still
 
 REPEATS = 9
 

@@ -19,11 +19,6 @@ from typing import TYPE_CHECKING
 from drapery.lazy import import_lazily
 
 if TYPE_CHECKING:
-    from drapery.scenes.bodies import (
-        STEP as STEP,
-        LiveBody as LiveBody,
-        StagedBody as StagedBody,
-    )
     from drapery.scenes.catalogue import (
         Clip as Clip,
         SceneEntry as SceneEntry,
@@ -31,22 +26,27 @@ if TYPE_CHECKING:
         scene_names as scene_names,
     )
     from drapery.scenes.drawing import scene_frames as scene_frames
-    from drapery.scenes.dressing import Dressed as Dressed
     from drapery.scenes.exploded import exploded_view as exploded_view
-    from drapery.scenes.forces import (
+    from drapery.scenes.parameters import SceneParameters as SceneParameters
+    from drapery.scenes.picture_grid import ClipPicture as ClipPicture, PictureGrid as PictureGrid
+    from drapery.stage.bodies import (
+        STEP as STEP,
+        LiveBody as LiveBody,
+        StagedBody as StagedBody,
+    )
+    from drapery.stage.dressing import Dressed as Dressed
+    from drapery.stage.forces import (
         WIND_AXIS as WIND_AXIS,
         flow as flow,
         wind_of as wind_of,
     )
-    from drapery.scenes.garment_playing import (
+    from drapery.stage.garment_playing import (
         first_scene as first_scene,
         played_garment as played_garment,
         repeating_garment as repeating_garment,
         texture_areas as texture_areas,
     )
-    from drapery.scenes.parameters import SceneParameters as SceneParameters
-    from drapery.scenes.picture_grid import ClipPicture as ClipPicture, PictureGrid as PictureGrid
-    from drapery.scenes.playing import (
+    from drapery.stage.playing import (
         LiveKernel as LiveKernel,
         LivePanel as LivePanel,
         PlayedCloth as PlayedCloth,
@@ -55,9 +55,9 @@ if TYPE_CHECKING:
         live_picture as live_picture,
         played_body as played_body,
     )
-    from drapery.scenes.recording import Schedule as Schedule
-    from drapery.scenes.staging import Staging as Staging, floor_under as floor_under
-    from drapery.scenes.subjects import (
+    from drapery.stage.recording import Schedule as Schedule
+    from drapery.stage.staging import Staging as Staging, floor_under as floor_under
+    from drapery.stage.subjects import (
         StagedSubject as StagedSubject,
         loop as loop,
         moments as moments,

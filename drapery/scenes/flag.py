@@ -13,7 +13,6 @@ from drapery.scenes.backdrop import Backdrop
 from drapery.scenes.banners import design_materials
 from drapery.scenes.buildings import tower_on_hill
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.forces import in_wind
 from drapery.scenes.moving import LOOP, looped_wind, motion
 from drapery.scenes.parameters import (
     SceneParameters,
@@ -25,6 +24,7 @@ from drapery.scenes.parameters import (
 )
 from drapery.scenes.stroll import cloths_of
 from drapery.scenes.variants import in_material
+from drapery.stage.forces import in_wind
 from drapery.style.block_world import blocks
 from drapery.style.scenery import post
 

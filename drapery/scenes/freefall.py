@@ -9,7 +9,6 @@ from drapery.packs import open_packs
 from drapery.render import Scene, View, contact_shadow
 from drapery.scenes.backdrop import framing
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.dressing import Dressed
 from drapery.scenes.moving import motion
 from drapery.scenes.parameters import (
     SceneParameters,
@@ -19,6 +18,7 @@ from drapery.scenes.parameters import (
     thickness_in_metres,
 )
 from drapery.scenes.variants import dressed, in_material, varied, with_side
+from drapery.stage.dressing import Dressed
 from drapery.style import SheetMapping
 from drapery.style.block_world import blocks, plateau
 from drapery.style.tailoring import TEXEL, checked

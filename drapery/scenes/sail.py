@@ -11,7 +11,6 @@ from drapery.render import Scene, View
 from drapery.scenes.backdrop import framing
 from drapery.scenes.buildings import raft
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.dressing import Dressed
 from drapery.scenes.moving import motion
 from drapery.scenes.parameters import (
     SceneParameters,
@@ -21,7 +20,8 @@ from drapery.scenes.parameters import (
     thickness_in_metres,
 )
 from drapery.scenes.variants import dressed, in_material, varied
-from drapery.scenes.wind_script import WindSetting, read_script, setting_at
+from drapery.stage.dressing import Dressed
+from drapery.stage.wind_script import WindSetting, read_script, setting_at
 from drapery.style.block_world import blocks
 from drapery.style.scenery import sea
 from drapery.style.tailoring import TEXEL, checked

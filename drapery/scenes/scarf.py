@@ -8,7 +8,6 @@ from drapery.garments import SewnCloth
 from drapery.packs import open_packs
 from drapery.render import Model, Scene
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.gait import MAX_WALK, Gait
 from drapery.scenes.moving import looped_wind
 from drapery.scenes.parameters import (
     SceneParameters,
@@ -19,6 +18,7 @@ from drapery.scenes.parameters import (
 )
 from drapery.scenes.stroll import cloths_of, walk_scenes, worn_states
 from drapery.scenes.variants import in_material
+from drapery.stage.gait import MAX_WALK, Gait
 from drapery.style import SheetMapping
 from drapery.style.boxes import ModelBox, box_mesh, upright
 from drapery.style.figure import SKINS, TEXEL

@@ -9,7 +9,6 @@ from drapery.garments import SewnCloth
 from drapery.packs import open_packs
 from drapery.render import Scene
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.gait import MAX_WALK, Gait
 from drapery.scenes.moving import looped_wind
 from drapery.scenes.parameters import (
     SceneParameters,
@@ -20,6 +19,7 @@ from drapery.scenes.parameters import (
 from drapery.scenes.pleats import SIDES_ON_TEXTURE, pleated
 from drapery.scenes.stroll import BEFORE, cloths_of, walk_scenes, worn_states
 from drapery.scenes.variants import in_material
+from drapery.stage.gait import MAX_WALK, Gait
 from drapery.style.figure import SKINS
 
 

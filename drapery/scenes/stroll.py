@@ -11,10 +11,10 @@ from drapery.packs import Packs, open_packs
 from drapery.render import Camera, Material, Model, Scene, View, frame_points
 from drapery.scenes.backdrop import Backdrop
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.forces import in_wind
-from drapery.scenes.gait import Gait
 from drapery.scenes.moving import LOOP, motion
 from drapery.scenes.variants import varied
+from drapery.stage.forces import in_wind
+from drapery.stage.gait import Gait
 from drapery.style.figure import PARTS, figure_material, figure_mesh
 from drapery.style.scenery import moved, path_ground, shadow
 

@@ -12,11 +12,11 @@ from drapery.scenes.backdrop import Backdrop, framing
 from drapery.scenes.banners import BannerBlock, banner_ground, hang_flags
 from drapery.scenes.cape import CapeParameters, cape_cloth, cape_states
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.gait import MAX_WALK, Gait
 from drapery.scenes.moving import LOOP, looped_wind
 from drapery.scenes.parameters import SceneParameters, parameter, seed_parameter, wind_parameter
 from drapery.scenes.picture_grid import PictureGrid, panel_size
 from drapery.scenes.stroll import camera, ground, walker
+from drapery.stage.gait import MAX_WALK, Gait
 from drapery.style.block import stiff_flag
 from drapery.style.board import moved
 from drapery.style.figure import figure_material

@@ -8,7 +8,7 @@ from typing import Any
 from drapery.garments import Garment, GridPiece, SewnCloth, find_garment
 from drapery.packs import open_packs
 from drapery.render import Material
-from drapery.scenes.dressing import Dressed
+from drapery.stage.dressing import Dressed
 from drapery.style import UVMapping, make_shell
 
 

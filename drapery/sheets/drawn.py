@@ -13,11 +13,11 @@ from drapery.errors import OptionError
 from drapery.garments import dressed_player, find_garment, garment_names, make_wearer
 from drapery.pictures import draw, draw_face, draw_scenes
 from drapery.render import Frame, frame_view
-from drapery.scenes.dressing import Dressed
-from drapery.scenes.recording import Schedule
-from drapery.scenes.subjects import moments as staged_moments, still
 from drapery.settings import OPTIONS, ROTATIONS, Settings, StyleLike
 from drapery.sheets.sheet import PictureSheet, SheetCell
+from drapery.stage.dressing import Dressed
+from drapery.stage.recording import Schedule
+from drapery.stage.subjects import moments as staged_moments, still
 from drapery.style.figure import SKINS
 from drapery.styles import find_style, style_names
 

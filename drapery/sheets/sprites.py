@@ -12,8 +12,8 @@ from drapery.banner.packs import open_packs
 from drapery.errors import OptionError
 from drapery.pictures import draw_scenes
 from drapery.render import Frame, frame_view
-from drapery.scenes.subjects import loop
 from drapery.settings import ROTATIONS, Settings, frame_count
+from drapery.stage.subjects import loop
 
 if TYPE_CHECKING:
     from drapery.garments.model import Garment

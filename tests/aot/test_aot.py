@@ -180,7 +180,7 @@ def test_a_library_of_another_layout_is_not_used(built, use, monkeypatch):
 
 def test_numba_is_imported_only_for_kernels():
     """Its import takes longer than all else that a command does before it draws."""
-    program = "import sys; import drapery.cli, drapery.scenes.bodies, drapery.render.soft\n"
+    program = "import sys; import drapery.cli, drapery.stage.bodies, drapery.render.soft\n"
     program += "from drapery.cloth import Fabric, Gravity, Wind, grid, rest_state\n"
     program += "from drapery.render import Camera\nfrom drapery.styles import STEPS\n"
     program += "print(sorted({'numba', 'llvmlite', 'scipy', 'trimesh'} & set(sys.modules)))"

@@ -7,8 +7,8 @@ from drapery import Banner
 from drapery.cloth import grid, max_stretch
 from drapery.cloth.gathering import fold_count, gathered_state
 from drapery.packs import open_packs
-from drapery.scenes.bodies import LiveBody
 from drapery.settings import Settings
+from drapery.stage.bodies import LiveBody
 from drapery.style.cloth_spec import ClothSpec, cloth_at_rest
 from drapery.style.kinds import body_of
 

@@ -9,7 +9,7 @@ from drapery.garments import SewnCloth, dressed_player, find_garment, make_weare
 from drapery.garments.layering import outermost, put_outside, sampled
 from drapery.packs import open_packs
 from drapery.scenes import Dressed, Schedule
-from drapery.scenes.layered import common_bones, meet_each_other
+from drapery.stage.layered import common_bones, meet_each_other
 from drapery.style.figure import TEXEL
 
 SQUARE = np.array([[-1.0, -1, 2], [1, -1, 2], [-1, 1, 2], [1, 1, 2]])

@@ -13,7 +13,7 @@ from drapery.errors import OptionError
 from drapery.garments import PlayerSettings, player_of
 from drapery.garments.profiles import MAX_PROFILE, Profile, profile_of, read_profile
 from drapery.packs import open_packs
-from drapery.scenes.wearers import wearer_of
+from drapery.stage.wearers import wearer_of
 
 FULL = {
     "texture": "g:skins/knight",

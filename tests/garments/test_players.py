@@ -27,10 +27,10 @@ from drapery.garments.poses import BonePoses
 from drapery.packs import open_packs
 from drapery.player_settings import MOTIONS
 from drapery.scenes import Dressed
-from drapery.scenes.player_motion import player_poses
-from drapery.scenes.recording import Schedule
 from drapery.settings import Settings
 from drapery.sheets import players_sheet
+from drapery.stage.player_motion import player_poses
+from drapery.stage.recording import Schedule
 from drapery.style.boxes import ModelBox
 from drapery.style.figure import PARTS, TEXEL
 from drapery.style.skins import MIRRORED, OVERLAYS, SLIM_PARTS, Skin, read_skin

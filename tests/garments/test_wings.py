@@ -13,7 +13,7 @@ from drapery.garments.motions import KeyPose, bone_table, find_motion, player_bo
 from drapery.garments.poses import BonePoses
 from drapery.packs import open_packs
 from drapery.scenes import Dressed, Schedule
-from drapery.scenes.gait import Gait
+from drapery.stage.gait import Gait
 from drapery.style.figure import PARTS, TEXEL, WING_JOINTS
 from drapery.testing import check_garment
 

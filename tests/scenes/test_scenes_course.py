@@ -9,7 +9,7 @@ from drapery.cloth.forces import Gravity
 from drapery.errors import OptionError
 from drapery.scenes import corners, freefall, sail
 from drapery.scenes.catalogue import Clip
-from drapery.scenes.wind_script import parse_script, read_script
+from drapery.stage.wind_script import parse_script, read_script
 
 LONG = Clip((64, 64), 100, 20.0)
 FOUR = (("corners",),)

@@ -9,7 +9,7 @@ from drapery.errors import OptionError
 from drapery.mesh import vertex_normals
 from drapery.scenes import cape, scarf, skirt
 from drapery.scenes.catalogue import Clip, find_scene
-from drapery.scenes.gait import LEG, Gait
+from drapery.stage.gait import LEG, Gait
 from drapery.style.extrusion import boundary_edges
 from drapery.style.figure import PARTS, TEXEL
 

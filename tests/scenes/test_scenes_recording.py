@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from drapery.cloth import Gravity, MovingCloth, SolverXPBD, State, grid, simulate
-from drapery.scenes.recording import Drape, Meeting, Schedule, record
+from drapery.stage.recording import Drape, Meeting, Schedule, record
 
 STEP = 1 / 60
 

@@ -21,8 +21,8 @@ from drapery.render.light import UNLIT
 from drapery.render.scene import Model, Scene
 from drapery.render.soft import draw_scene
 from drapery.scenes import loop
-from drapery.scenes.bodies import texture_times
 from drapery.settings import Settings
+from drapery.stage.bodies import texture_times
 from drapery.style.block import FLAG_MAPPING
 from drapery.style.board import stiff_board
 from drapery.style.layers import flag_material

@@ -16,7 +16,7 @@ from drapery.render import Camera, Material, Model, Scene, SurfaceDetail, Textur
 from drapery.render.light import STUDIO_LIGHT, UNLIT, Light
 from drapery.render.soft import draw_scene
 from drapery.scenes import still
-from drapery.scenes.bodies import with_finish
+from drapery.stage.bodies import with_finish
 from drapery.style.finish import FINISHES
 from drapery.style.uv_mapping import SHEET_MAPPING
 

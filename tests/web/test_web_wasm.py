@@ -22,7 +22,7 @@ from drapery.cloth.forces import lower_forces
 from drapery.packs import open_packs
 from drapery.render import draw_scene
 from drapery.scenes import LiveBody, live_panels, live_picture, played_body, still
-from drapery.scenes.forces import forces_of, wind_of
+from drapery.stage.forces import forces_of, wind_of
 from drapery.style import Body, body_of
 from drapery.web.wasm import build
 from drapery.web.wasm.module import module_info, smallest_module

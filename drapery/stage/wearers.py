@@ -20,7 +20,7 @@ from drapery.garments.textures import read_texture
 from drapery.mesh import Mesh
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Model, Rig, TextureLayer
-from drapery.scenes.player_motion import player_poses, walk
+from drapery.stage.player_motion import player_poses, walk
 from drapery.style.boxes import box_mesh, upright
 from drapery.style.equipment import (
     ARMOR_SOLID,

@@ -11,9 +11,9 @@ from drapery.arrays import Vectors
 from drapery.banner.design import Banner
 from drapery.banner.packs import Packs
 from drapery.render.scene import Scene
-from drapery.scenes.bodies import StagedBody
-from drapery.scenes.recording import Schedule
 from drapery.settings import Settings
+from drapery.stage.bodies import StagedBody
+from drapery.stage.recording import Schedule
 from drapery.style.kinds import body_of
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def subject_of(
     if design is None or isinstance(design, Banner):
         return StagedBody(body_of(design, packs, settings), settings)
     # Imported here: pictures of banners need no pydantic.
-    from drapery.scenes.dressing import Dressed
+    from drapery.stage.dressing import Dressed
 
     return Dressed(design, packs, settings, period)
 

@@ -19,15 +19,15 @@ from drapery.garments.model import Garment, GarmentWearer
 from drapery.garments.motions import find_motion
 from drapery.garments.players import WING
 from drapery.render.scene import Scene
-from drapery.scenes.dressing import MIDDLE, WORN_STEP, Dressed
-from drapery.scenes.forces import wind_of
-from drapery.scenes.layered import meet_each_other
-from drapery.scenes.player_motion import RAMP, STRIDE
-from drapery.scenes.playing import PlayedCloth, PlayedSubject, turning_of
-from drapery.scenes.recording import Schedule
-from drapery.scenes.staging import Staging
-from drapery.scenes.wearers import Wearer
 from drapery.settings import Settings
+from drapery.stage.dressing import MIDDLE, WORN_STEP, Dressed
+from drapery.stage.forces import wind_of
+from drapery.stage.layered import meet_each_other
+from drapery.stage.player_motion import RAMP, STRIDE
+from drapery.stage.playing import PlayedCloth, PlayedSubject, turning_of
+from drapery.stage.recording import Schedule
+from drapery.stage.staging import Staging
+from drapery.stage.wearers import Wearer
 from drapery.style.live_figure import LiveFigure, make_live_figure
 from drapery.style.skins import SIDE
 

@@ -24,11 +24,11 @@ from drapery.cloth.solvers.driver import functions_of
 from drapery.errors import OptionError
 from drapery.mesh import Array
 from drapery.render.soft.live_picture import draw_live, make_live_picture
-from drapery.scenes.bodies import STEP, StagedBody
-from drapery.scenes.forces import forces_of, lee_of, wind_of
-from drapery.scenes.recording import Schedule
-from drapery.scenes.staging import Staging
 from drapery.settings import Settings
+from drapery.stage.bodies import STEP, StagedBody
+from drapery.stage.forces import forces_of, lee_of, wind_of
+from drapery.stage.recording import Schedule
+from drapery.stage.staging import Staging
 from drapery.style.block import turn_centre, turn_matrix
 from drapery.style.body import Body, Panel
 from drapery.style.cloth_spec import cloth_at_rest

@@ -32,13 +32,13 @@ from drapery.garments.model import Garment, GarmentPole
 from drapery.garments.players import with_head_banner
 from drapery.mesh import Array
 from drapery.render.scene import Model, RiggedModel, Scene
-from drapery.scenes.bodies import STEP, with_finish
-from drapery.scenes.forces import in_wind, wind_of
-from drapery.scenes.layered import common_bones, joint_contact, meet_each_other
-from drapery.scenes.recording import Drape, Meeting, Schedule, record
-from drapery.scenes.staging import Staging
-from drapery.scenes.wearers import Wearer, wearer_of
 from drapery.settings import Settings
+from drapery.stage.bodies import STEP, with_finish
+from drapery.stage.forces import in_wind, wind_of
+from drapery.stage.layered import common_bones, joint_contact, meet_each_other
+from drapery.stage.recording import Drape, Meeting, Schedule, record
+from drapery.stage.staging import Staging
+from drapery.stage.wearers import Wearer, wearer_of
 from drapery.style.block import turn_matrix
 from drapery.style.block_world import Cell, blocks
 from drapery.style.board import moved

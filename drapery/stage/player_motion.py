@@ -26,7 +26,7 @@ from drapery.garments.motions import (
 )
 from drapery.garments.poses import BonePoses
 from drapery.mesh import Array
-from drapery.scenes.gait import ARM_SHARE, Gait
+from drapery.stage.gait import ARM_SHARE, Gait
 from drapery.style.figure import TEXEL, FigurePart, to_metres
 
 STRIDE = 0.8

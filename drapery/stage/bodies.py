@@ -17,10 +17,10 @@ from drapery.arrays import Vectors
 from drapery.cloth import FABRICS, Fabric, MovingCloth, Wind
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material, Model, Scene
-from drapery.scenes.forces import forces_of, wind_of
-from drapery.scenes.recording import Drape, Schedule, record
-from drapery.scenes.staging import Staging
 from drapery.settings import Settings
+from drapery.stage.forces import forces_of, wind_of
+from drapery.stage.recording import Drape, Schedule, record
+from drapery.stage.staging import Staging
 from drapery.style.body import Body, Panel
 from drapery.style.cloth_spec import ClothSpec, cloth_at_rest
 from drapery.style.extrusion import Shell, thicken
