@@ -3,8 +3,9 @@
 Whole commands are timed, with the start of Python: one picture, and 80 frames of 512 x 512 as a
 GIF. With `--against`, the same commands of another environment's interpreter run in turn with
 these, so both meet the same load of the machine. The ratio is that of the least times. `--jit`
-leaves out the kernels that were compiled ahead of time, see `drapery.aot`. On two busy cores the
-first picture after an installation took 0.8 s of the processor with them and 36 s without.
+leaves out the kernels that were compiled ahead of time, see `drapery.jit.library`. On two busy
+cores the first picture after an installation took 0.8 s of the processor with them and 36 s
+without.
 
 Later pictures take 0.41 s of the processor (`--processor`, Python 3.13), on a slow machine 0.50 s.
 There the imports of NumPy take 0.13, of typer 0.08, of Drapery's 190 modules 0.13 and of Pillow

@@ -1,7 +1,7 @@
 """What the kernels of the first picture cost to compile: `python -m benchmarks.compiling`.
 
 Each run is a process of its own with an empty cache; `numba` stands for the compiler as numba has
-it, without `drapery.jit_compiling`. The ratio is that of the processor's times; the pictures must
+it, without `drapery.jit.compiling`. The ratio is that of the processor's times; the pictures must
 be the same. On a slow and busy core (x86-64, Python 3.13, numba 0.68.1) 357 compilations of 222
 functions that were linked into each caller took 88.3 s and 1074 MB; linked once, in the same
 minutes, 306 took 70.7 s and 554 MB. Later 263 of 200 took 61.3 s and 506 MB. Compiled twice are
@@ -22,7 +22,7 @@ from benchmarks.quick import add_quick
 PLAIN = """
 import sys
 from types import ModuleType
-sys.modules["drapery.jit_compiling"] = ModuleType("drapery.jit_compiling")
+sys.modules["drapery.jit.compiling"] = ModuleType("drapery.jit.compiling")
 """
 RUN = """
 import hashlib, json, resource, sys, time

@@ -26,9 +26,9 @@ MAX_WHEEL = 1_650_000
 
 With docstrings that describe each parameter in a line of its own the sources take 1.59 MB.
 """
-LEFT_OUT = ("drapery/web/", "drapery/aot/kernels-")
+LEFT_OUT = ("drapery/web/", "drapery/jit/kernels-")
 NOT_SOURCES = {
-    "drapery/aot/kernels-*": "release.kernels",
+    "drapery/jit/kernels-*": "release.kernels",
     "drapery/web/wasm/*.wasm": "drapery.web.wasm.build",
 }
 """Built files in a checkout, which no source archive or plain wheel holds, and what makes them."""

@@ -1,6 +1,6 @@
 """Compile the kernels of the usual pictures into one library: `python -m release.kernels`.
 
-The library is written beside `drapery/aot/library.py`, which loads it, for the platform on which
+The library is written beside `drapery/jit/library.py`, which loads it, for the platform on which
 this runs. A wheel that is built afterwards holds it. Pictures are drawn and the calls of kernels
 noted; numba translates each kernel for the types of its arguments; LLVM compiles the result for
 any processor of the platform (x86-64 with AVX2); `zig cc` links. It needs llvmlite and ziglang.
@@ -40,7 +40,7 @@ PICTURES: tuple[dict[str, Any], ...] = (
 
 @dataclass(frozen=True)
 class Call:
-    """A kernel and the types of its arguments, as `drapery.aot` and as numba names them."""
+    """A kernel and the types of its arguments, as `drapery.jit.library` and as numba names them."""
 
     kernel: Any
     types: tuple[str, ...]
@@ -54,10 +54,10 @@ class Call:
 def recorded_calls() -> list[Call]:
     """The kernels that the pictures call, each with its types, in the order of their names."""
     from drapery import Banner, draw, iter_frames
-    from drapery.aot.arguments import pack
     from drapery.cloth import grid
     from drapery.jit import EntryPoint
-    from drapery.jit_codegen import types_of
+    from drapery.jit.arguments import pack
+    from drapery.jit.codegen import types_of
     from drapery.style import cover_crowd, make_shell
 
     found: dict[tuple[str, tuple[str, ...]], Call] = {}
@@ -93,7 +93,7 @@ def compiled(
     """The object file of a kernel with a function that unpacks its arguments; what it is."""
     import llvmlite.binding as llvm
 
-    from drapery.jit_codegen import caller_module, result_type
+    from drapery.jit.codegen import caller_module, result_type
 
     made = call.kernel.dispatcher.overloads[call.signature].fndesc
     about = {"types": call.types, "result": result_type(made.restype)}
@@ -125,9 +125,9 @@ def build(path: Path, platform: tuple[str, str], calls: list[Call]) -> None:
     """Write the library of a platform with the kernels of some calls."""
     import llvmlite.binding as llvm
 
-    from drapery.aot.arguments import ABI
-    from drapery.aot.library import SYMBOL
-    from drapery.kernel_sources import source_key
+    from drapery.jit.arguments import ABI
+    from drapery.jit.library import SYMBOL
+    from drapery.jit.sources import source_key
 
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
@@ -159,7 +159,7 @@ def main() -> None:
     # Unoptimised code from numba, which LLVM optimises for the platform. The cache has no text.
     with tempfile.TemporaryDirectory() as cache:
         os.environ |= {"NUMBA_OPT": "0", "NUMBA_CACHE_DIR": cache, "DRAPERY_AOT": "0"}
-        from drapery.aot.library import library_path, machine
+        from drapery.jit.library import library_path, machine
 
         build(library_path(), (sys.platform, machine()), recorded_calls())
 

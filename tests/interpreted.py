@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from drapery import jit
-from drapery.aot.arguments import pack
+from drapery.jit.arguments import pack
 
 _at_address: list[tuple[Callable[..., Any], list[str]]] = []
 """The functions that are called by address, and the types for which each is compiled."""

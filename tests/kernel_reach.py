@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from source_modules import modules
 
-COMPILERS = ("drapery.jit", "drapery.jit_calls", "numba")
+COMPILERS = ("drapery.jit", "drapery.jit.calls", "numba")
 """Modules that make kernels."""
 WHOLE = "*"
 

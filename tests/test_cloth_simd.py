@@ -19,7 +19,7 @@ from numba import njit, typeof
 
 from drapery import jit
 from drapery.cloth import simd, simd_plain
-from drapery.kernel_sources import SIMD
+from drapery.jit.sources import SIMD
 
 SETTINGS = {"error_model": "numpy"}
 
@@ -120,9 +120,9 @@ INTERNALS = {
 
 @pytest.mark.parametrize("owner", INTERNALS, ids=lambda o: getattr(o, "__name__", type(o).__name__))
 def test_numba_and_llvmlite_have_what_kernels_are_made_with(owner):
-    """If this fails with new versions: adapt `simd_instructions`, `jit`, `jit_calls`,
-    `jit_codegen`, `jit_compiling`, `jit_runtime` and `user_calls`, or lower the highest versions
-    in pyproject.toml."""
+    """If this fails with new versions: adapt `simd_instructions`, `user_calls` and `drapery.jit`
+    with its `calls`, `codegen`, `compiling` and `runtime`, or lower the highest versions in
+    pyproject.toml."""
     missing = [name for name in INTERNALS[owner].split() if not hasattr(owner, name)]
     assert not missing
 

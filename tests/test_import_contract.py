@@ -14,9 +14,7 @@ from source_modules import FOLDERS, ROOT, modules
 
 FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
-    *("aot", "arrays", "compile_beside", "jit_cache", "jit_calls", "jit_codegen", "jit_compiling"),
-    *("jit_objects", "jit_runtime", "kernel_sources"),
-    *("lazy", "toml_text", "player_settings", "version"),
+    *("arrays", "lazy", "toml_text", "player_settings", "version"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
     *("json_text", "model_faults", "file_formats", "output_files"),
 }
@@ -30,26 +28,9 @@ RINGS = (FOUNDATION, CORE, PICTURES, APPLICATIONS)
 ALLOWED: dict[str, set[str]] = {
     "errors": set(),
     "elementary": set(),
-    "kernel_sources": set(),
-    "aot": {"kernel_sources"},
-    "jit_objects": {"aot"},
-    "jit_runtime": set(),
-    "jit_cache": {"aot", "jit_objects", "kernel_sources"},
-    "jit_calls": set(),
-    "jit_codegen": {"aot", "jit_cache", "jit_objects", "jit_runtime"},
-    "jit_compiling": set(),
-    "compile_beside": {"jit_codegen"},
     "lazy": set(),
     "version": set(),
-    "jit": {
-        "aot",
-        "errors",
-        "jit_cache",
-        "jit_calls",
-        "jit_codegen",
-        "jit_objects",
-        "kernel_sources",
-    },
+    "jit": {"errors"},
     "arrays": set(),
     "mesh": {"arrays", "errors"},
     "option": {"errors"},
@@ -97,6 +78,7 @@ KNOWS_NO_SETTINGS = {"cloth", "banner", "packs", "render", "assets"}
 
 SHARED = {
     *("drapery.pictures", "drapery.render.contact", "drapery.render.doctor"),
+    "drapery.jit.kernel_cache",
     *("drapery.render.drawlist", "drapery.render.encode", "drapery.render.encode.quick_png"),
     *(f"drapery.{name}" for name in FOUNDATION),
 }

@@ -166,7 +166,7 @@ OPENED_ELSEWHERE = {
     # the one place for each kind of file
     *("mesh_file.py", "picture_file.py", "toml_text.py"),
     # files of the package, and compiled kernels
-    *("kernel_sources.py", "jit_cache.py", "batch/keys.py", "match/perspective.py"),
+    *("jit/sources.py", "jit/kernel_cache.py", "batch/keys.py", "match/perspective.py"),
     *("banner/blazon/reading.py", "banner/formats/languages.py", "banner/formats/snbt.py"),
     *("banner/letters.py", "banner/packs/folders.py", "testing/failures.py"),
     *("web/bundle.py", "web/designer_page.py", "web/package.py", "web/page.py"),

@@ -33,7 +33,7 @@ def _say_where_kernels_are(console: "Console") -> None:
     from rich.markup import escape
 
     from drapery.jit import compiler_fault
-    from drapery.jit_cache import REMEDY, kernel_cache_status
+    from drapery.jit.kernel_cache import REMEDY, kernel_cache_status
 
     if fault := compiler_fault():
         line = f"kernels: [yellow]cannot be compiled[/]\n  to mend it: {escape(fault)}"

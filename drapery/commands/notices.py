@@ -72,7 +72,7 @@ def say_compiling(function: Callable[..., object]) -> None:
 
 
 def start_beside(names: str, words: list[str], call: bytes = b"") -> None:
-    """Compile kernels in another process, see `drapery.compile_beside`; it ends with this one.
+    """Compile kernels in another process, see `drapery.jit.beside`; it ends with this one.
 
     names: of the kernels, see `drapery.jit.compiled_beside`. words, call: for the process.
     """
@@ -81,7 +81,7 @@ def start_beside(names: str, words: list[str], call: bytes = b"") -> None:
     from drapery.jit import compiled_beside
 
     pipe, nowhere = subprocess.PIPE, subprocess.DEVNULL
-    command = [sys.executable, "-m", "drapery.compile_beside", *words]
+    command = [sys.executable, "-m", "drapery.jit.beside", *words]
     with suppress(OSError):  # it only saves time
         process = subprocess.Popen(command, stdin=pipe, stdout=nowhere, stderr=nowhere)
         assert process.stdin is not None

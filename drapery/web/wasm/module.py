@@ -12,13 +12,13 @@ from typing import Any
 import drapery.cloth
 import drapery.render
 import drapery.style
-from drapery.jit_cache import kernel_cache_status
+from drapery.jit.kernel_cache import kernel_cache_status
 from drapery.web.wasm.binary import custom_content, custom_section, trimmed
 from drapery.web.wasm.image import WasmBuildError
 
 HERE = Path(__file__).parent
 BUILDERS = "binary.py", "compiler.py", "compiling.py", "image.py", "runtime.c"
-COMMON = "elementary.py", "jit.py", "jit_calls.py"
+COMMON = "elementary.py", "jit/__init__.py", "jit/calls.py"
 """Files of Drapery's own folder that kernels are compiled with."""
 
 

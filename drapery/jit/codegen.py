@@ -1,8 +1,8 @@
 """Object files of what numba compiles, which can be stored and loaded without numba.
 
 numba's own way needs numba in each process, which takes longer to import than a picture takes to
-draw. Here a kernel gets a function that unpacks a block of words, see `drapery.aot.compiled`, and
-the few functions for memory that kernels call, see `drapery.jit_runtime`.
+draw. Here a kernel gets a function that unpacks a block of words, see `drapery.jit.compiled`, and
+the few functions for memory that kernels call, see `drapery.jit.runtime`.
 """
 
 import pickle
@@ -15,11 +15,11 @@ from llvmlite import ir
 from numba.core import types as numba_types
 from numba.core.registry import cpu_target
 
-from drapery.aot.arguments import pack
-from drapery.aot.compiled import Result, word_count
-from drapery.jit_cache import write_kernel
-from drapery.jit_objects import CALL, KernelObject
-from drapery.jit_runtime import add_runtime
+from drapery.jit.arguments import pack
+from drapery.jit.compiled import Result, word_count
+from drapery.jit.kernel_cache import write_kernel
+from drapery.jit.objects import CALL, KernelObject
+from drapery.jit.runtime import add_runtime
 
 _llvm: Any = llvm
 _numba: Any = numba
@@ -41,7 +41,7 @@ OF_OTHERS = re.compile("NRT_|numba_|_?Py")
 def compile_kernel(entry_point: Any, types: tuple[str, ...], parameters: Any) -> KernelObject:
     """The machine code of an entry point, which is stored if another process can use it.
 
-    types: of the arguments, see `drapery.aot.arguments`. parameters: the same for numba.
+    types: of the arguments, see `drapery.jit.arguments`. parameters: the same for numba.
     """
     made, is_lasting = _compiled_object(entry_point.dispatcher, parameters)
     if is_lasting:

@@ -13,9 +13,9 @@ from numba.core import codegen, event
 from numba.core.errors import TypingError
 
 from drapery import jit
-from drapery.aot.arguments import pack
 from drapery.jit import address_of, call_by_address, entry_point, kernel
-from drapery.jit_codegen import compile_kernel, types_of
+from drapery.jit.arguments import pack
+from drapery.jit.codegen import compile_kernel, types_of
 
 ROW = np.arange(5.0)
 
@@ -72,7 +72,7 @@ def chooses(row: Any) -> Any:
 @pytest.fixture(autouse=True)
 def compiled_here(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is read from the cache of kernels, so that each test compiles."""
-    monkeypatch.setattr("drapery.jit_cache.read_kernel", lambda kernel, types: None)
+    monkeypatch.setattr("drapery.jit.kernel_cache.read_kernel", lambda kernel, types: None)
     for function in (
         last_times_five,
         with_sum,
@@ -94,7 +94,7 @@ def libraries(function: Any) -> list[Any]:
 def test_numba_has_what_is_changed() -> None:
     """It fails when numba's insides change: then kernels take longer to compile."""
     assert outermost(ROW) == 51
-    assert "drapery.jit_compiling" in sys.modules
+    assert "drapery.jit.compiling" in sys.modules
     assert [each.is_text for each in libraries(last_times_five)] == [True]
     assert [each.is_text for each in libraries(outermost)] == [False]
 
@@ -226,9 +226,9 @@ def test_where_numba_differs_kernels_are_compiled_as_it_does(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     jit.prepare_numba()
-    monkeypatch.delitem(sys.modules, "drapery.jit_compiling")
+    monkeypatch.delitem(sys.modules, "drapery.jit.compiling")
     monkeypatch.delattr(codegen.CPUCodeLibrary, "_optimize_functions")
     with pytest.warns(
-        UserWarning, match="kernels take longer to compile, because drapery.jit_comp"
+        UserWarning, match="kernels take longer to compile, because drapery.jit.comp"
     ):
         jit.prepare_numba()

@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from drapery import jit_cache
-from drapery.jit import entry_point
-from drapery.jit_cache import KernelCacheStatus
+from drapery.jit import entry_point, kernel_cache as jit_cache
+from drapery.jit.kernel_cache import KernelCacheStatus
 
 CALLEE = "from drapery.jit import kernel\n\n@kernel\ndef part(x):\n    return x + {number}\n"
 CALLER = """
@@ -34,7 +33,7 @@ NO_FOLDER = """
 import warnings
 from pathlib import Path
 warnings.simplefilter("always")
-from drapery import jit_cache
+from drapery.jit import kernel_cache as jit_cache
 jit_cache.try_folder = lambda folder, private: Path("/dev/null/kernels").mkdir()
 from drapery.jit import entry_point, kernel
 
@@ -141,7 +140,7 @@ def test_without_a_folder_kernels_are_compiled_and_one_warning_says_so(tmp_path)
 
 
 def test_kernels_are_stored_with_temporary_files_if_no_other_folder_is_writable():
-    program = "from drapery.jit_cache import *; print(kernel_cache_status().folder)"
+    program = "from drapery.jit.kernel_cache import *; print(kernel_cache_status().folder)"
     run = run_program(program, Path("/dev/null/kernels"))
     assert Path(run.stdout.strip()).parent == Path(tempfile.gettempdir())
     assert not run.stderr

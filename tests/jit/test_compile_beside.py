@@ -17,7 +17,7 @@ from drapery.cloth import Collider, Collisions, Gravity, MovingCloth, Plane, gri
 from drapery.cloth.solvers import driver
 from drapery.commands import notices
 from drapery.jit import called_next, compiled_beside, expected_call
-from drapery.jit_cache import kernel_cache_status
+from drapery.jit.kernel_cache import kernel_cache_status
 from drapery.settings import SolverName
 
 KERNEL = """
@@ -50,7 +50,7 @@ def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, untraced_processes: N
 
     def started(*words: str) -> "subprocess.Popen[bytes]":
         return subprocess.Popen(
-            [sys.executable, "-m", "drapery.compile_beside", *words],
+            [sys.executable, "-m", "drapery.jit.beside", *words],
             stdin=subprocess.PIPE,
             env=os.environ | {"PYTHONPATH": paths, "NUMBA_CACHE_DIR": str(tmp_path / "cache")},
         )
@@ -85,7 +85,7 @@ def test_a_kernel_that_is_compiled_beside_is_awaited_and_not_compiled_again(
     assert expected is not None
     paths = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
     process = subprocess.Popen(
-        [sys.executable, "-m", "drapery.compile_beside"],
+        [sys.executable, "-m", "drapery.jit.beside"],
         stdin=subprocess.PIPE,
         env=os.environ | {"PYTHONPATH": paths},
     )
@@ -97,7 +97,7 @@ def test_a_kernel_that_is_compiled_beside_is_awaited_and_not_compiled_again(
     def compile_again(*_: Any) -> None:
         raise AssertionError("the kernel was compiled again")
 
-    monkeypatch.setattr("drapery.jit_codegen.compile_kernel", compile_again)
+    monkeypatch.setattr("drapery.jit.codegen.compile_kernel", compile_again)
     assert twice(2.5) == 5.0
     process.stdin.close()
     folder = kernel_cache_status().folder

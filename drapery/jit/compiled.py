@@ -1,7 +1,7 @@
 """A compiled kernel: its call with a block of words, its result, and its error.
 
 The block begins with the address of an error, then comes the result, then the arguments; see
-`drapery.aot.arguments`. `drapery.jit_codegen` makes the function that is called with a block.
+`drapery.jit.arguments`. `drapery.jit.codegen` makes the function that is called with a block.
 """
 
 import ctypes
@@ -44,7 +44,7 @@ class CompiledKernel:
     owner: Any = None
 
     def __call__(self, words: list[int]) -> Any:
-        """words: see `drapery.aot.arguments`. Raises what the kernel raises."""
+        """words: see `drapery.jit.arguments`. Raises what the kernel raises."""
         count = word_count(self.result)
         block = array("q", [0] * (1 + count) + words)
         if self.call(block.buffer_info()[0]):

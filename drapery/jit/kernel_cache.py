@@ -1,6 +1,6 @@
 """Compiled kernels on disk.
 
-The key of a kernel has all that it is compiled from, see `drapery.kernel_sources`, the versions of
+The key of a kernel has all that it is compiled from, see `drapery.jit.sources`, the versions of
 the compiler, its settings, such as NUMBA_BOUNDSCHECK, and the processor. Each key has a folder of
 its own, so that installations with the same sources share their kernels. A damaged file is
 compiled again. A kernel of which something has no source is not stored. If no folder can be
@@ -25,9 +25,9 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from drapery.aot.arguments import ABI
-from drapery.jit_objects import KernelObject, processor
-from drapery.kernel_sources import SIMD, source_key
+from drapery.jit.arguments import ABI
+from drapery.jit.objects import KernelObject, processor
+from drapery.jit.sources import SIMD, source_key
 
 LOG = logging.getLogger(__name__)
 REMEDY = "set NUMBA_CACHE_DIR to a folder that can be written"

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
 
-from drapery.aot.compiled import CompiledKernel, Result
+from drapery.jit.compiled import CompiledKernel, Result
 
 CALL = "drapery_call"
 """The function of an object that takes a block of words."""

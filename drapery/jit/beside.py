@@ -1,8 +1,8 @@
 """The process that compiles kernels while the command that started it compiles others.
 
-`python -m drapery.compile_beside` reads a call of a kernel from standard input, see
+`python -m drapery.jit.beside` reads a call of a kernel from standard input, see
 `drapery.jit.expected_call`, and compiles the kernel for it into the cache;
-`python -m drapery.compile_beside MODULE` runs a module that compiles what it needs. The process
+`python -m drapery.jit.beside MODULE` runs a module that compiles what it needs. The process
 ends with the one that started it, whose end closes standard input.
 """
 
@@ -27,7 +27,7 @@ def main(words: list[str]) -> None:
     if call is None:
         import_module(f"{words[0]}.__main__").main()
         return
-    from drapery.jit_codegen import compile_kernel
+    from drapery.jit.codegen import compile_kernel
 
     module, name, types, parameters = call
     compile_kernel(getattr(import_module(module), name), types, parameters)

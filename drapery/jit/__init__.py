@@ -1,8 +1,9 @@
 """Decorators: `kernel` for functions that kernels call, `entry_point` for those Python calls.
 
 numba is imported, which takes longer than to draw a picture, when a kernel has to be compiled.
-Kernels that are stored, see `drapery.jit_cache`, or were compiled ahead of time, see `drapery.aot`,
-run without it.
+Kernels that are stored, see `drapery.jit.kernel_cache`, or were compiled ahead of time (AOT), see
+`drapery.jit.library`, run without it: `arguments` packs the arguments of a call, and `compiled`
+calls a kernel with them.
 """
 
 import os
@@ -16,14 +17,14 @@ from functools import cache, cached_property, update_wrapper
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from drapery.aot.arguments import pack
-from drapery.aot.compiled import CompiledKernel
-from drapery.aot.library import kernels_of
 from drapery.errors import BackendError
-from drapery.kernel_sources import SIMD, Compiled, ImportedByNumba
+from drapery.jit.arguments import pack
+from drapery.jit.compiled import CompiledKernel
+from drapery.jit.library import kernels_of
+from drapery.jit.sources import SIMD, Compiled, ImportedByNumba
 
 if TYPE_CHECKING:
-    from drapery.jit_objects import KernelObject
+    from drapery.jit.objects import KernelObject
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -48,7 +49,7 @@ class Kernel(Compiled):
 
     options: dict[str, Any] = OPTIONS
     is_inner = True
-    """Whether only kernels call it; see `drapery.jit_compiling`."""
+    """Whether only kernels call it; see `drapery.jit.compiling`."""
 
     def __init__(self, function: Callable[..., object]) -> None:
         update_wrapper(cast(Any, self), function)
@@ -120,8 +121,8 @@ class EntryPoint(Kernel):
         return self._ready[types]
 
     def _loaded(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> CompiledKernel:
-        from drapery.jit_cache import read_kernel
-        from drapery.jit_objects import load
+        from drapery.jit.kernel_cache import read_kernel
+        from drapery.jit.objects import load
 
         made = read_kernel(self, types)
         if made is None and _await_others(f"{self.__module__}.{self.__qualname__}"):
@@ -130,7 +131,7 @@ class EntryPoint(Kernel):
 
     def _new(self, types: tuple[str, ...], arguments: tuple[Any, ...]) -> "KernelObject":
         prepare_numba()
-        from drapery.jit_codegen import compile_kernel, types_of
+        from drapery.jit.codegen import compile_kernel, types_of
 
         return compile_kernel(self, types, types_of(arguments))
 
@@ -242,12 +243,12 @@ def call_by_address(result: type | None, example: tuple[Any, ...] | None = None)
     """
 
     def make() -> Any:
-        from drapery.jit_calls import address_caller
+        from drapery.jit.calls import address_caller
 
         return address_caller(result, example)
 
     types = None if example is None else pack(example).types
-    return NumbaName(make, result, types, ImportedByNumba("drapery.jit_calls"))
+    return NumbaName(make, result, types, ImportedByNumba("drapery.jit.calls"))
 
 
 def address_of(function: Any, example: tuple[Any, ...]) -> int:
@@ -261,7 +262,7 @@ def when_numba_compiles(begin: Callable[[Any], None]) -> Iterator[None]:
     stop: list[Callable[[], None]] = []
 
     def listen() -> None:
-        from drapery.jit_calls import call_at_first_compile
+        from drapery.jit.calls import call_at_first_compile
 
         stop.append(call_at_first_compile(begin))
 
@@ -291,11 +292,11 @@ def called_next(function: Any, arguments: tuple[Any, ...]) -> Iterator[None]:
 
 def expected_call() -> tuple[str, bytes] | None:
     """The kernel that is called after the block of `called_next`, as a name for
-    `compiled_beside`, and the call, for `drapery.compile_beside`; None if none is."""
+    `compiled_beside`, and the call, for `drapery.jit.beside`; None if none is."""
     call = _expected.get()
     if call is None or not isinstance(call[0], EntryPoint):
         return None
-    from drapery.jit_codegen import pickled_call
+    from drapery.jit.codegen import pickled_call
 
     return f"{call[0].__module__}.{call[0].__qualname__}", pickled_call(*call)
 
@@ -323,7 +324,7 @@ def prepare_numba() -> None:
     """
     if fault := compiler_fault():
         raise BackendError(fault)
-    if "drapery.jit_compiling" not in sys.modules:
-        _is_imported("drapery.jit_compiling", "kernels take longer to compile")
+    if "drapery.jit.compiling" not in sys.modules:
+        _is_imported("drapery.jit.compiling", "kernels take longer to compile")
     while declarations:
         declarations.pop(0)()

@@ -13,10 +13,9 @@ import numpy as np
 import pytest
 from numba import typeof
 
-from drapery.aot import arguments as arguments_of, library
-from drapery.aot.arguments import pack
-from drapery.jit import entry_point
-from drapery.jit_runtime import add_runtime
+from drapery.jit import arguments as arguments_of, entry_point, library
+from drapery.jit.arguments import pack
+from drapery.jit.runtime import add_runtime
 
 RELEASE = Path(__file__).parents[2] / "release"
 
@@ -99,8 +98,8 @@ sys.path[:0] = [*TESTS, ROOT]
 from pathlib import Path
 import numba
 import test_aot
-from drapery.aot.arguments import pack
-from drapery.aot.library import machine
+from drapery.jit.arguments import pack
+from drapery.jit.library import machine
 from release import kernels
 given = test_aot.arguments()
 test_aot.scaled_sum(*given)

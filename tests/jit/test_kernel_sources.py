@@ -16,13 +16,12 @@ import pytest
 from kernel_reach import WHOLE, Place, functions, kernels, last_line, reached
 from source_modules import FOLDERS, modules
 
-from drapery import kernel_sources
-from drapery.jit import EntryPoint, Kernel
+from drapery.jit import EntryPoint, Kernel, sources as kernel_sources
 
 KEYS = """
 import json, sys
 from importlib import import_module
-from drapery.kernel_sources import source_key
+from drapery.jit.sources import source_key
 found = {name: source_key(getattr(import_module(name[0]), name[1])) for name in NAMES}
 unwanted = sorted({"numba", "scipy"} & set(sys.modules))
 print(json.dumps([[[name, key] for name, key in found.items()], unwanted]))
@@ -191,7 +190,7 @@ def test_an_edit_of_files_without_kernels_changes_no_key(tmp_path: Path, copied:
     used |= {
         place.module for kernel in all_kernels() for place in reached(kernel) if place.name == WHOLE
     }
-    used.add("drapery.jit_calls")
+    used.add("drapery.jit.calls")
     others = {name: path for name, path in modules().items() if name not in used}
     assert {"drapery.cloth.fabric", "drapery.render.camera"} <= set(others)
     for path in others.values():
@@ -206,7 +205,7 @@ EDITS = {
         Place("drapery.cloth.solvers.xpbd", "_advance_sheet"),
     ),
     "a constant from which another is made": (
-        *("drapery/jit.py", "REGISTER = 64", "REGISTER = 32"),
+        *("drapery/jit/__init__.py", "REGISTER = 64", "REGISTER = 32"),
         Place("drapery.cloth.solvers.xpbd", "_advance"),
     ),
     "the fields of a named tuple": (
@@ -214,7 +213,7 @@ EDITS = {
         Place("drapery.cloth.contact.lanes_contact", "resolve"),
     ),
     "the options of the compiler": (
-        *("drapery/jit.py", '"no_cfunc_wrapper": True', '"no_cfunc_wrapper": False'),
+        *("drapery/jit/__init__.py", '"no_cfunc_wrapper": True', '"no_cfunc_wrapper": False'),
         Place("drapery.styles.kernels", "blur"),
     ),
     "what numba imports by name": (

@@ -1,4 +1,11 @@
-"""The library of kernels of this platform: finding it, checking it, calling it."""
+"""The library of kernels of this platform: finding it, checking it, calling it.
+
+A wheel for a platform holds one shared library with the kernels of the usual pictures, so that the
+first picture does not wait for a compiler, and no command waits for the import of numba. The code
+comes from the same source as numba's own, in strict IEEE arithmetic, so it gives the same bits.
+`python -m release.kernels` in a checkout builds the library. Without a library, or if it was built
+from other sources, numba compiles every kernel when it is first called, and it is stored.
+"""
 
 import ctypes
 import json
@@ -10,9 +17,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from drapery.aot.arguments import ABI
-from drapery.aot.compiled import CompiledKernel
-from drapery.kernel_sources import source_key
+from drapery.jit.arguments import ABI
+from drapery.jit.compiled import CompiledKernel
+from drapery.jit.sources import source_key
 
 OFF = "DRAPERY_AOT"
 """The variable of the environment that turns the library off if it is 0."""
