@@ -38,7 +38,7 @@ OTHERS: dict[str, Any] = {
         f"minecraft:entity/{name}": TEXELS
         for name in ("banner/banner_base", "banner/base", "shield/shield_base", "shield/base")
     })],
-    "kind": "shield", "texture": SHEET[::-1], "pose": "vanilla", "placement": "wall", "rotation": 5,
+    "kind": "shield", "texture": SHEET[::-1], "pose": "vanilla", "placement": "wall", "rotation": 3,
     "facing": "east", "view": "back", "turntable": True, "size": (32, 24), "grid": (5, 8),
     "solver": "desbrun", "fabric": "silk", "forces": [Drag(9.0)], "pins": "corners",
     "contact": "none", "wind": 4.5, "direction": 100.0, "gusts": 1.5, "time": 1.0, "seed": 7,
