@@ -90,7 +90,10 @@ def press(page: Any, *keys: str) -> None:
 
 def titles(page: Any) -> list[str]:
     """The layers as they are listed, topmost first."""
-    return [each.text for each in page.find_elements(By.CSS_SELECTOR, ".layer-name b")]
+    # At once: an edit replaces the rows.
+    texts = "[...document.querySelectorAll('.layer-name b')].map((each) => each.innerText)"
+    found: list[str] = page.execute_script(f"return {texts}")
+    return found
 
 
 def layer(place: int, part: str = ".layer") -> str:

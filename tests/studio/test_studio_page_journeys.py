@@ -48,8 +48,7 @@ def page(chromium: Any, studio: Studio, request: pytest.FixtureRequest) -> Itera
         time.sleep(3)  # until the cloth and all faces show the last step
         Path(SHOTS).mkdir(parents=True, exist_ok=True)
         chromium.save_screenshot(f"{SHOTS}/{request.node.name.removeprefix('test_')}.png")
-    # The server refuses scenes that the tests' kernels cannot play; the renderer draws them.
-    assert [each for each in console_errors(chromium) if "/live/" not in each] == []
+    assert console_errors(chromium) == []
     assert "Traceback" not in "".join(studio.log)
 
 
