@@ -228,9 +228,5 @@ def lying(folder: Path, pattern: str) -> set[Path]:
 
 
 def console_errors(driver: Any) -> list[str]:
-    """What the browser's console calls severe since the page was opened.
-
-    The server refuses scenes that the kernels of tests cannot play; the renderer draws them then.
-    """
-    severe = [each["message"] for each in driver.get_log("browser") if each["level"] == "SEVERE"]
-    return [text for text in severe if not ("/live/" in text and "status of 422" in text)]
+    """What the browser's console calls severe since the page was opened."""
+    return [entry["message"] for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]

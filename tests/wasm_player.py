@@ -18,9 +18,9 @@ from drapery.web.wasm.build import build_module
 from drapery.web.wasm.module import module_info, module_places
 from drapery.web.wasm.plan import split_plan
 
-QUICK = ("desbrun", "xpbdsheet", "picture", "player")
+QUICK = ("desbrun", "xpbd", "xpbdsheet", "picture", "player")
 """The methods of the module that the tests build: the compilation of each takes 15 s or more. The
-studio's own settings need `xpbdsheet`."""
+studio's own settings need `xpbdsheet`, and its capes `xpbd`."""
 
 
 @cache
@@ -38,7 +38,7 @@ def built_module() -> bytes:
 def _has_all(module: bytes) -> bool:
     """Whether a module has the methods in QUICK; another program may have built it for less."""
     kernels = module_info(module)["kernels"]
-    return {"play_desbrun", "play_xpbdsheet", "draw", "pose"} <= kernels.keys()
+    return {"play_desbrun", "play_xpbd", "play_xpbdsheet", "draw", "pose"} <= kernels.keys()
 
 
 @contextmanager
