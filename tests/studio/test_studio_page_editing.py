@@ -6,6 +6,7 @@ import pytest
 from selenium.webdriver import Keys
 from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
 
+from drapery.banner import PATTERN_NAMES
 from drapery.banner.design import Banner
 from drapery.banner.formats import write_banner
 from drapery.studio.design_catalogue import EXAMPLES, own_designs
@@ -199,6 +200,33 @@ def test_the_live_view_comes_first_at_every_width(
     if size[0] < 1000:
         chromium.execute_script("window.scrollTo(0, 400)")
         wait_until(lambda: chromium.execute_script(script)[2] >= -1)
+    resize(chromium, WIDE)
+
+
+BELOW = """
+const bottom = (each) => each.getBoundingClientRect().bottom;
+return [...document.querySelectorAll(".pattern")].map(bottom);
+"""
+BROKEN = """
+// A caption whose longest word is wider than its button is broken inside of the word.
+const ruler = document.createElement("canvas").getContext("2d");
+return [...document.querySelectorAll(".pattern .caption")].filter((each) => {
+  ruler.font = getComputedStyle(each).font;
+  const widths = each.textContent.split(" ").map((word) => ruler.measureText(word).width);
+  return Math.max(...widths) > each.parentElement.clientWidth;
+}).map((each) => each.textContent);
+"""
+
+
+def test_all_patterns_are_on_one_screen_over_the_present_design(
+    chromium: Any, studio: Studio
+) -> None:
+    resize(chromium, (1440, 900))
+    open_page(chromium, studio, "?design=white+creeper:lime+border:black")
+    bottoms = wait_until(lambda: chromium.execute_script(BELOW))
+    assert len(bottoms) == len(PATTERN_NAMES)
+    assert max(bottoms) <= 900
+    assert chromium.execute_script(BROKEN) == []
     resize(chromium, WIDE)
 
 
