@@ -18,7 +18,7 @@ from drapery.errors import DraperyError
 class _Stopped(KeyboardInterrupt):
     """A signal to stop.
 
-    A plain KeyboardInterrupt in code that is compiled from a text, as that of dataclasses, makes
+    A plain KeyboardInterrupt in code that is compiled from a text, as in dataclasses, makes
     CPython end by the signal although it was caught (`run_eval_code_obj` in pythonrun.c).
     """
 

@@ -111,7 +111,7 @@ def check_triangles(positions: Array, triangles: Triangles, name: str) -> None:
     if wrong.any():
         raise OptionError(
             f"{name} has {vertices}, and the positions of {int(wrong.sum())} are no finite"
-            f" numbers, the first that of vertex {int(wrong.argmax())}; positions must be finite"
+            f" numbers, first at vertex {int(wrong.argmax())}; positions must be finite"
         )
 
 

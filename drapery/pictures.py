@@ -119,7 +119,7 @@ def save_model(
     settings: the options of the model, see `draw`.
     seconds: length of the loop [s]; 0 for one pose.
     fps: [frames/s] of the loop.
-    origin: that of the file: the lowest corner of the block in which a banner stands, to the west
+    origin: of the file: the lowest corner of the block in which a banner stands, to the west
         and north, or the middle of the block's floor.
     progress: called with the number of finished frames and of all; it may raise to end the work,
         and then there is no file.
@@ -184,7 +184,7 @@ def face_pixels(
 ) -> Pixels:
     """The plain face of a banner, shape [40 scale, 20 scale, 4], for packs of any size.
 
-    That of a shield has the shape [22 scale, 12 scale, 4]. Raises PackError.
+    A shield's face has the shape [22 scale, 12 scale, 4]. Raises PackError.
     """
     from drapery.banner.sprites import (
         FLAG_REGIONS,

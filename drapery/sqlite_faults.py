@@ -30,5 +30,5 @@ def sqlite_cause(error: BaseException | None) -> Cause:
 
 
 def sqlite_name(error: BaseException | None) -> str:
-    """The name of an error's code, such as `SQLITE_IOERR_WRITE`, or that of its class."""
+    """The name of an error's code, such as `SQLITE_IOERR_WRITE`, or the name of its class."""
     return str(getattr(error, "sqlite_errorname", type(error).__name__))

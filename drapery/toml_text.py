@@ -94,7 +94,7 @@ def locate(path: str | Path, text: str, place: Place) -> str:
 
 
 def line_of(text: str, place: Place) -> int | None:
-    """The line of a field, from 1; that of its table where the table lacks the field.
+    """The line of a field, from 1; the line of its table where the table lacks the field.
 
     place: a field; or a table and a field; or a list of tables, the number of one, and a field.
     None where the text has neither.

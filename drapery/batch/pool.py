@@ -32,7 +32,7 @@ Pipe: TypeAlias = Any
 
 @dataclass(frozen=True)
 class JobLimits:
-    """Limits of one job: time [s], and memory in addition to that of its worker [bytes].
+    """Limits of one job: time [s], and memory in addition to its worker's [bytes].
 
     The time for compiling kernels does not count, up to MAX_COMPILING: a worker that is ended while
     it compiles would have to begin anew, and so would the next.

@@ -71,7 +71,7 @@ WeightingOption = Annotated[
 ]
 MuralOption = Annotated[
     str | None,
-    typer.Option(metavar="WxH", help="Show the picture on so many banners, such as 4x3."),
+    typer.Option(metavar="WxH", help="Show the picture on a grid of banners, such as 4x3."),
 ]
 PhotoOption = Annotated[
     bool,

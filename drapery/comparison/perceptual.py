@@ -1,8 +1,8 @@
 """Measures of how much two pictures are perceived to differ, in tiles of bounded memory.
 
-Each measure of a pixel depends on a few pixels around it, and is exactly that of equal pictures
-where those are equal. So only what lies around differences is measured. The sums are those of
-numbers with a fixed point, so that tiles of other sizes give the same figures.
+Each measure of a pixel depends on a few pixels around it, and where those are equal it is
+exactly as for equal pictures. So only what lies around differences is measured. Sums are of numbers
+with a fixed point, so that tiles of other sizes give the same figures.
 """
 
 from collections.abc import Iterable, Iterator

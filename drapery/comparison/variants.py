@@ -80,8 +80,8 @@ def draw_variants(
 
     subjects: two or more pictures; or one or more designs, and packs to draw them with.
     settings: the options of all pictures that are drawn.
-    layer_modes: one for each variant; empty for that of the settings.
-    backends: one for each variant; empty for that of the settings.
+    layer_modes: one for each variant; empty for the one of the settings.
+    backends: one for each variant; empty for the one of the settings.
     styles: one for each variant; empty for those of the settings.
     form: of the designs, see `drapery.banner.parse_banner`.
     number: which banner to use, from 1, if a text holds several.

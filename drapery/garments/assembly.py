@@ -24,7 +24,7 @@ from drapery.style.tailoring import ClothModel
 from drapery.style.visible import is_invisible
 
 LAYER = 2.5
-"""A layer of cloth adds so many thicknesses to the distance of the next from what it meets."""
+"""How many thicknesses a layer of cloth adds to the distance of the next from what it meets."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from drapery.mesh import Array
 ROUNDS = 16
 """The most rounds in which particles are moved outwards."""
 CLEAR = 1.1
-"""Cloths begin so many times their thickness apart."""
+"""The distance at which cloths begin, over their thickness."""
 SAMPLES = (
     np.array(
         [

@@ -239,8 +239,8 @@ class GarmentPiece(GarmentTable):
     place: where its origin is [texels].
     turn: angles about x, then y, then z through its origin [degrees].
     mirror: the name of a second piece, this one mirrored at x = 0.
-    layer: cloth of a higher layer stays outside that of lower ones.
-    texture: that of the garment unless given.
+    layer: cloth of a higher layer stays outside cloth of lower ones.
+    texture: by default the garment's.
     """
 
     name: Name
@@ -595,7 +595,7 @@ class Garment(GarmentTable):
     collisions: what its cloth does not pass through: `none`, `world` (wearer, poles, blocks,
         meshes, ground), or `all` (itself too).
     resolution: texels to a block, 1 to 256.
-    texture: that of the pieces that have none of their own.
+    texture: of the pieces that have none of their own.
     folder: where relative paths of its textures start.
     picture: options of its pictures by name, unless the picture gives them; see `Settings`.
     wearer: a player or horse, which stands at the origin; without one, nobody wears it.
@@ -771,7 +771,7 @@ class Garment(GarmentTable):
         return self._with_source(("design",), ClothTexture(design=_as_banner(design)))
 
     def with_texture(self, texture: str | Path | ClothTexture) -> "Garment":
-        """The garment with another texture, or that of a PNG file, on the pieces that have a file
+        """The garment with another texture, or a PNG file's, on the pieces that have a file
         or a texture of the packs, or on all if none has; their regions stay. Those of garments over
         it count too.
 

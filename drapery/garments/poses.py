@@ -11,8 +11,8 @@ from drapery.mesh import Array
 from drapery.style.figure import Placed
 
 TICKS = 5040
-"""Poses that repeat are computed at so many moments of a time step, which most numbers of substeps
-divide."""
+"""Poses that repeat are computed at this number of moments of a time step, which most numbers of
+substeps divide."""
 KEPT = 4
 """Tables that are kept: boxes, pins and models ask for the same times one after another."""
 

@@ -164,7 +164,7 @@ def _strip(piece: StripPiece, garment: Garment) -> CutPiece:
     along = end - start
     distance = float(np.sqrt((along * along).sum()))
     along = along / distance
-    # Its width lies level; that of an upright strip along x.
+    # Its width lies level; the width of an upright strip, along x.
     aside = np.array([along[2], 0.0, -along[0]])
     length = float(np.sqrt((aside * aside).sum()))
     aside = aside / length if length > 1e-9 else np.array([1.0, 0.0, 0.0])

@@ -90,7 +90,7 @@ def _reached(library: Any, seen: set[Any]) -> Iterator[Any]:
 
 
 def _set_environment_later(name: str, environment: Any) -> None:
-    """Set the address of an environment; that of a text when the code of a caller exists."""
+    """Set the address of an environment; for a text, when the code of a caller exists."""
     if _is_text():
         _environments[name] = environment
     else:

@@ -35,7 +35,7 @@ SIZE = HEIGHT * WIDTH * 3
 class FaceArt:
     """What each dye and each pattern shows on a face.
 
-    N is SIZE, P the number of patterns, D that of dyes, which is 16 unless some are left out.
+    N is SIZE, P the number of patterns, D the number of dyes, 16 unless some are left out.
     patterns: their ids. bases: the undecorated face in each dye, [D, N].
     alpha: of each pattern, [P, N]. dyed: the colours of each pattern in each dye, [P, D, N].
     """

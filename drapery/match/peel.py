@@ -22,7 +22,7 @@ _SCREEN = 240
 """Channels that are compared first; most layers fail there."""
 
 _SHOWN = 6
-"""A dye counts as shown if at least so many texels have its colour and that of no other dye."""
+"""A dye counts as shown if at least this many texels have its colour and no other dye's."""
 
 _STRIDE = 301
 """Texels are compared in steps of this many, so that the first ones lie all over the face."""

@@ -67,7 +67,7 @@ _TURNS = 6
 _WELL = 1500.0
 """No search from other bends follows when the error is below this."""
 _CLOSE = 1.3
-"""Designs are refined whose errors are less than so many times the best one's."""
+"""Designs are refined whose errors are less than this multiple of the best one's."""
 _OTHERS = 6
 """How many other layers are tried in place of each one of a design."""
 _ALIGNED = 8
@@ -246,7 +246,7 @@ class _PhotoSearch:
         return sorted(known, key=lambda one: self.fits[one].error)[:_NEAR]
 
     def _realign(self, stack: Stack, fit: _Fit, ways: tuple[_Way, ...] = (_COARSELY,)) -> None:
-        """Align the photo with a design. fit: that of this design, or of a similar one."""
+        """Align the photo with a design. fit: of this design, or of a similar one."""
         wanted = self._paint(stack) * fit.light
         for steps, stiffness in ways:
             bend = aligned(self.view, fit.bend, wanted, steps, stiffness)
@@ -254,7 +254,7 @@ class _PhotoSearch:
 
     @property
     def error(self) -> float:
-        """That of the best design."""
+        """The error of the best design."""
         return min(fit.error for fit in self.fits.values())
 
     def distinct(self, count: int) -> list[Stack]:
@@ -269,7 +269,7 @@ class _PhotoSearch:
         return chosen
 
     def distance(self, stack: Stack) -> float:
-        """The mean distance in OKLab between the face that was seen and that of a design."""
+        """The mean distance in OKLab between the face that was seen and the face of a design."""
         fit = self.fits[stack]
         seen = oklab(fit.seen.without(fit.light))
         return float(distances(seen, oklab(self._paint(stack))).mean() / UNIT)

@@ -39,7 +39,7 @@ class ScarfParameters(SceneParameters):
     )
     skin: str = parameter("traveller", "Skin of the figure", choices=SKINS)
     speed: float = parameter(2.5, "Speed of the walk", (0, MAX_WALK), "m/s")
-    wind: float = wind_parameter(2.5, "Wind from ahead, added to that of the walk")
+    wind: float = wind_parameter(2.5, "Wind from ahead, added to the air that the walk meets")
     thickness: float = thickness_parameter(0.5)
     seed: int = seed_parameter()
 

@@ -30,7 +30,7 @@ def check_secret(secret: str) -> bytes:
 def sign_address(address: str, secret: str) -> str:
     """The address of a picture with its signature, which replaces one that it has.
 
-    address: as https://banners.example/banner.png?design=white. secret: that of the service.
+    address: as https://banners.example/banner.png?design=white. secret: the service's.
     Raises OptionError for an address without a query, or a secret that is empty or too short.
     """
     key = check_secret(secret)
@@ -38,7 +38,7 @@ def sign_address(address: str, secret: str) -> str:
     query = parse_qsl(parts.query, keep_blank_values=True)
     name = _name(parts.path)
     if not key:
-        raise OptionError(f"there is no secret; set {SECRET} to that of the service")
+        raise OptionError(f"there is no secret; set {SECRET} to the secret of the service")
     if not name or not query:
         raise OptionError(f"{address[:60]!r} names no picture; write …/banner.png?design=white")
     signed = [*unsigned(query), (PARAMETER, _signature(name, query, key))]
@@ -46,7 +46,7 @@ def sign_address(address: str, secret: str) -> str:
 
 
 def is_signed(path: str, query: Iterable[tuple[str, str]], key: bytes) -> bool:
-    """Whether a query holds one signature, that of its other names and values for this path."""
+    """Whether a query holds one signature, which fits its other names and values for this path."""
     listed = list(query)
     given = [value for name, value in listed if name == PARAMETER]
     wanted = _signature(_name(path), listed, key)

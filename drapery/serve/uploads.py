@@ -12,7 +12,7 @@ MAX_UPLOAD = 1 << 20
 MAX_SIDE = 512
 """The widest skin [px]."""
 KEPT = 512
-"""So many skins are on the disk; a picture of one that has left must be asked for again."""
+"""The most skins on the disk; a picture of one that has left must be uploaded again."""
 
 
 class SkinUploads:

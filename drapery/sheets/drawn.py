@@ -161,7 +161,7 @@ def garments_sheet(
 ) -> PictureSheet:
     """Each garment at GARMENT_TIMES, in its own view and wind.
 
-    settings: size, packs and backend; the rest is that of each garment.
+    settings: size, packs and backend; each garment has the rest.
     names: garments of the package or files; all of the package unless given.
     background: as in `styles_sheet`.
 

@@ -1,6 +1,6 @@
 """Pictures of garments: the camera and light of a `Staging`, with cloth that a garment describes.
 
-A garment's origin is the middle of a block, as that of a banner. The air comes towards a wearer
+A garment's origin is the middle of a block, as a banner's is. The air comes towards a wearer
 that walks at the speed of its walk, so its cloth moves as on one that walks through the wind.
 """
 
@@ -68,7 +68,7 @@ EDGE = 0.2
 ROUNDING = 1e-9
 """The share of a time step by which steps may be longer, see `Schedule.still`."""
 FRICTION = 0.6
-"""Of cloth on the ground; on all else that of its fabric counts."""
+"""Of cloth on the ground; on all else its fabric's counts."""
 
 
 @dataclass(frozen=True, eq=False)

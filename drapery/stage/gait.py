@@ -24,7 +24,7 @@ MAX_WALK = 10.0
 LEG, HALF_FOOT = 12 * TEXEL, 2 * TEXEL
 """Length of a leg, and half the length of its foot [m]."""
 ARM_SHARE = 0.6
-"""The swing of an arm over that of a leg."""
+"""The swing of an arm over the swing of a leg."""
 FIGURES: Mapping[str, Mapping[str, FigurePart]] = {"player": PARTS, "horse": HORSE_PARTS}
 """Who walks, by name."""
 

@@ -1,7 +1,7 @@
 """A garment on its wearer that plays on without Python: see `playing`.
 
 The motion of the wearer repeats after whole time steps, so tables of one period hold the places of
-pins, boxes and bones. The cloth is of single precision, as that of a banner.
+pins, boxes and bones. The cloth is of single precision, as a banner's is.
 """
 
 import math

@@ -153,7 +153,7 @@ def live_picture(body: Body, settings: Settings, lanes: int | None = None) -> Li
     """The panel of a body, with the call `draw`, which draws the picture of the settings.
 
     Only for bodies of one panel, without shadows. The camera frames the cloth at `settings.time`.
-    The header has `picture`, its width and height; and `steps`, after which the cloth is that of
+    The header has `picture`, its width and height; and `steps`, after which the cloth is as in
     the still. The host may replace `materials`, `layers` and `atlas`; the layers end with SPARE
     rows of zeros.
 

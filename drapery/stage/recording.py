@@ -48,7 +48,7 @@ class Schedule:
         time: when the picture is [s].
         step: the longest time step [s].
         tolerance: the share of a step by which steps may be longer, so that no step is added where
-            a time is that of whole steps but for rounding.
+            a time differs from whole steps only by rounding.
         """
         steps = math.ceil(time / step - tolerance)
         dt = time / steps if steps else step

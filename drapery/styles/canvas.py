@@ -75,7 +75,7 @@ class Canvas:
     def coarse(self, size: int) -> "Canvas":
         """Each square of `size` x `size` pixels of the result as one, its most typical place.
 
-        size: [pixels]; 0 is that of `large_pixel`. What lies in the place goes with its colour.
+        size: [pixels]; 0 uses `large_pixel`. What lies in the place goes with its colour.
         """
         size = size or large_pixel(-(-self.pixels.shape[0] // self.grid))
         at = self._typical(size * self.grid)

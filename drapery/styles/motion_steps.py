@@ -11,14 +11,14 @@ from drapery.mesh import Array
 from drapery.style.piece import Piece
 
 LOOSE = 0.7
-"""A snapped angle stays until the angle of the cloth is so many steps away, so it does not flicker
-between two neighbours."""
+"""A snapped angle stays until the angle of the cloth is this number of steps away, so it does not
+flicker between two neighbours."""
 ROUNDS = 3
 """How often `snap_angles` goes around a loop: after that the end leads to the start."""
 UPRIGHT = 0.7
 """A held row whose unit vector has a larger upward part stands upright, as at a flag's pole."""
 SEAM = 3.0
-"""A motion whose end is so many times as far from its start as its frames are apart is no loop."""
+"""The end of a loop is at most this many distances between its frames away from its start."""
 
 
 def hold(

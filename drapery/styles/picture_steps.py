@@ -44,7 +44,7 @@ def shade(
     *,
     bands: Annotated[int, Field(ge=2, le=16, description="steps from dark to bright")] = 3,
     darkest: Annotated[float, Field(ge=0, le=1, description="brightness of the darkest")] = 0.5,
-    brightest: Annotated[float, Field(ge=0, le=1, description="that of the brightest")] = 1.0,
+    brightest: Annotated[float, Field(ge=0, le=1, description="brightness of the brightest")] = 1.0,
     azimuth: Annotated[float, Field(ge=-180, le=180, description="of the light [degrees]")] = -55,
     elevation: Annotated[float, Field(ge=-90, le=90, description="of the light [degrees]")] = 40,
 ) -> Canvas:

@@ -17,7 +17,7 @@ from drapery.styles.step import costs, over_time
 COLOUR = np.uint32(0xFFFFFF)
 """The part of a word that is not alpha."""
 MOST_COLOURS = 256
-"""Rarer colours than so many do not enter the search of `limit`."""
+"""How many colours, the most frequent ones, enter the search of `limit`."""
 GREY = 9
 """The square of the distance of two greys that are a level apart; see `_distances`."""
 PASSES = 4

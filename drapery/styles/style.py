@@ -257,7 +257,7 @@ def _flat_buffers(frame: Frame) -> Buffers:
 def _large_pixels(scene: Scene, size: int, draw_scene: DrawScene) -> Canvas:
     """A scene drawn with a few samples in each square of size x size pixels, of which it keeps one.
 
-    size: 0 is that of `large_pixel`. The squares lie evenly about the middle of the picture, so
+    size: 0 uses `large_pixel`. The squares lie evenly about the middle of the picture, so
     those at its edges may be cut.
     """
     size = size or large_pixel(scene.size[1])

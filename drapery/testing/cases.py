@@ -43,7 +43,7 @@ OWN = ("name", "design", "hashed", *LIMIT_OPTIONS, *LOOP_OPTIONS)
 class Case(BaseModel):
     """One picture: its design and options, and how much it may differ from its golden.
 
-    name: its name, and that of its golden.
+    name: its name, which its golden has too.
     design: a text in any form; None for what needs no design.
     tolerance: all limits together; a hashed case has none.
     hashed: whether the golden is a hash in place of a picture.
@@ -78,7 +78,7 @@ class Case(BaseModel):
 class CaseFile(BaseModel):
     """A file of cases.
 
-    goldens: their folder, relative to that of the file, in which it lies.
+    goldens: their folder, relative to the folder of the file and inside it.
     defaults: options of all cases that do not give them.
     case: the cases.
     """

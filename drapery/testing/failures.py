@@ -105,7 +105,7 @@ def keep_failure(
 ) -> Path:
     """Write a failure's pictures and facts; returns the picture to look at first.
 
-    folder: that of the failures.
+    folder: of the failures.
     test: the id of the test.
     label: the name of the golden.
     expected: what `as_picture` takes; None if nothing is known of it.
@@ -159,7 +159,7 @@ def write_report(
 ) -> Path | None:
     """Make the page of all failures in a folder; without failures there is none.
 
-    folder: that of the failures.
+    folder: of the failures.
     page: where to write it, by default index.html in the folder.
     root: the folder in which the failures will be accepted; by default the present one.
 
@@ -196,7 +196,7 @@ def markdown_report(folder: Path) -> str:
 def accept_failures(folder: Path, only: Collection[str] | None = None) -> Iterator[Path]:
     """Write the actual pictures of a report as goldens; yields the path of each.
 
-    folder: that of the report.
+    folder: of the report.
     only: the ids of those to accept; None for all.
 
     Raises OutputError, before anything is written, if a golden would lie outside the present
@@ -266,7 +266,7 @@ def read_approvals(path: Path) -> list[str]:
 def clear_report(folder: Path, page: Path | None = None) -> None:
     """Remove the failures of earlier runs; other files stay.
 
-    folder: that of the failures.
+    folder: of the failures.
     page: see `write_report`.
 
     Raises OutputError if one cannot be removed, as in a folder of another user.

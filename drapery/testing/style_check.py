@@ -18,7 +18,7 @@ DESIGN = "white creeper:lime border:black"
 SIZE = (48, 64)
 FRAMES, FPS = 12, 10.0
 SEAM = 3.0
-"""The step over the seam of a loop may be so many times the largest other step."""
+"""The step over the seam of a loop may be this multiple of the largest other step."""
 WELD = 1e-6
 """Vertices that are nearer than this are one [m]."""
 

@@ -75,7 +75,7 @@ FIRST_ON_PATTERN = frozenset(
     {"per pale", "per fess", "per bend", "per bend sinister", "per chevron inverted"}
     | {"per saltire", "quarterly", "barry"}
 )
-"""The divisions whose first tincture is that of the pattern, and whose second is the base."""
+"""The divisions whose first tincture the pattern has, and whose second the base has."""
 
 NAMES = {
     **{"base": "a field", "stripe_bottom": "a base", "stripe_top": "a chief"},

@@ -164,7 +164,7 @@ def reader_of(node: DataTree, block_of: BlockOf | None) -> Callable[[DataTree, s
 
 
 def _is_block_entity(node: dict[str, DataTree]) -> bool:
-    """Whether a node is a banner's block entity. Its id is `banner`, as is that of old items."""
+    """Whether a node is a banner's block entity. Its id is `banner`, as old items' is."""
     identifier = node.get("id", node.get("Id"))
     if not isinstance(identifier, str) or bare(identifier) != "banner":
         return False
@@ -177,7 +177,7 @@ _ITEM_KEYS = frozenset({"count", "Count", "Damage", "components", "tag"})
 def _is_item(node: dict[str, DataTree]) -> bool:
     identifier = node.get("id")
     if identifier is None and _ITEM_KEYS.intersection(node):
-        # Bedrock's key, which a state of a palette in Java has too; that of icons and of mods.
+        # Bedrock's key, which a state of a palette in Java has too; the key of icons and of mods.
         identifier = node.get("Name", node.get("item") if "components" in node else None)
     if is_shield_id(identifier):
         return _is_patterned_shield(node)

@@ -35,7 +35,7 @@ def recognises(text: str) -> bool:
 def write(banner: Banner) -> str:
     """The command that gives the banner to the nearest player.
 
-    Raises DesignError for shields, since their text would be read as that of later versions, and
+    Raises DesignError for shields, since later versions would read their text as their own, and
     for patterns that came after 1.12.
     """
     entity = block_entity(banner)

@@ -1,7 +1,7 @@
 """Code of a server's plugin: `meta.addPattern(new Pattern(DyeColor.LIME, PatternType.CREEPER))`.
 
-Java or Kotlin with Bukkit's classes. The base is that of `new ItemStack(Material.RED_BANNER)`, or
-of `setBaseColor`. Nothing is run: patterns are read in the order of the text.
+Java or Kotlin with Bukkit's classes. The base is in `new ItemStack(Material.RED_BANNER)`, or
+`setBaseColor`. Nothing is run: patterns are read in the order of the text.
 """
 
 import re

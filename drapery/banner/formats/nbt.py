@@ -31,7 +31,7 @@ MAX_NAMES = 4096
 """Most names that compounds share in memory; usual files have some hundreds."""
 
 SHORT_LIST = 4
-"""Lists of up to so many numbers (positions, rotations) are `list`; longer ones are Numbers."""
+"""The longest lists of numbers (positions, rotations) that are `list`; longer ones are Numbers."""
 
 Order: TypeAlias = Literal["big", "little"]
 Reader: TypeAlias = Callable[[bytes, int], tuple[Any, int]]

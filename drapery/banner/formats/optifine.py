@@ -1,6 +1,6 @@
 """A banner on an OptiFine cape: `optifine.net/showBanner?format=ealleN&valign=m`.
 
-The code is that of Miners Need Cool Shoes. OptiFine shows eight layers, and not Mojang's pattern.
+Miners Need Cool Shoes writes the same code. OptiFine shows eight layers, and not Mojang's pattern.
 """
 
 from urllib.parse import quote

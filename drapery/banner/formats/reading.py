@@ -130,7 +130,7 @@ def _is_design(text: str) -> bool:
 
 
 def _is_world(path: Path) -> bool:
-    """Whether a folder is a world of either edition; that of Bedrock Edition is refused later."""
+    """Whether a folder is a world of either edition; one of Bedrock Edition is refused later."""
     files = (path / "level.dat", path / "db" / "CURRENT")
     return any(file.exists() for file in files) or (path / "region").is_dir()
 

@@ -72,7 +72,7 @@ KEYS = ("base", "layers", "kind")
 def hidden_layers(tree: dict[str, object], count: int) -> frozenset[int]:
     """The places of hidden layers in the tree of a link, from 0.
 
-    tree: that of a studio's link.
+    tree: of a studio's link.
     count: number of the design's layers.
 
     Raises DesignError for places that are not among them.

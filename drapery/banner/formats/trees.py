@@ -121,7 +121,7 @@ def read_text(text: str) -> DataTree:
 def _depth(text: str) -> int:
     """How deep brackets nest, 0 if there are few; those in strings count too.
 
-    The json module has no limit of its own, and that of the interpreter changes with its version.
+    The json module has no limit of its own, and the interpreter's limit changes with its version.
     """
     if text.count("[") + text.count("{") <= MAX_DEPTH:
         return 0

@@ -28,7 +28,7 @@ MAX_PATH = 200
 def listed(names: Iterable[str], longest: int = 80) -> str:
     """The first five names, sorted, in one short line, whatever is in them.
 
-    longest: so many characters of each are shown.
+    longest: how many characters of each are shown.
     """
     all_names = sorted(names)
     short = [name[:longest] for name in all_names[:5]]

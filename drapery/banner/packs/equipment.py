@@ -122,7 +122,7 @@ def trim_texels(layer: str, worn: str, pattern: str, material: str, packs: Packs
 
 
 def palette_fault(colours: int, tones: int) -> str:
-    """What is wrong with a palette of so many colours for a key of so many tones, or nothing."""
+    """What is wrong with these numbers of a palette's colours and a key's tones, or nothing."""
     if colours == tones:
         return ""
     return (

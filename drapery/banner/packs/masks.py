@@ -53,7 +53,7 @@ def looks_like_mask(texels: Texels) -> bool:
 def from_mask(mask: Texels, base: Texels) -> Texels:
     """A sheet of the present kind that looks like a mask over a base: its colours, alpha from red.
 
-    Its side is that of `common_side`.
+    `common_side` gives its side.
     """
     side = common_side((len(mask), len(base)))
     shown = np.where(mask[..., 3] > 0, mask[..., 0], 0).astype(np.uint8)

@@ -37,7 +37,7 @@ class Budget:
         return False
 
     def leave_out(self, count: int) -> None:
-        """Note that so many textures beside the sheets are not read."""
+        """Note how many textures beside the sheets are not read."""
         self._others += count
 
     def unchecked(self) -> tuple[str, ...]:

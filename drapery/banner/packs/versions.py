@@ -61,7 +61,7 @@ NEWEST_FORMAT = PACK_FORMATS[-1].number
 """The newest resource format known here; packs only for newer ones are read as this one."""
 
 NEWEST_DATA_FORMAT = 121
-"""The newest format of data packs known here, that of the same version."""
+"""The newest format of data packs known here, of the same version."""
 
 
 def last_before(game: str) -> int:

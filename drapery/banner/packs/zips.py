@@ -19,7 +19,7 @@ MAX_DIRECTORY = 8 << 20
 """Largest list of contents in a zip [bytes]; it is read before the first file."""
 
 MAX_RATIO = 200
-"""Largest compression ratio of a file over a mebibyte; that of PNG files is about 1."""
+"""Largest compression ratio of a file over a mebibyte; PNG files have about 1."""
 
 _LONGEST_TAIL = 76 + 22 + (1 << 16)
 """A zip's end records and the longest comment behind them [bytes]."""
