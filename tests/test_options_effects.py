@@ -7,14 +7,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
+from option_values import OTHERS, SHEET
 
 from drapery import Banner, Frame, OptionError, Settings, animate, draw, save_model
-from drapery.cloth import Drag
 from drapery.garments import Garment, PlayerSettings, player_of
 from drapery.option import Output, Subject
-from drapery.packs import MemoryPack, open_packs
+from drapery.packs import open_packs
 from drapery.scenes import live_panels, played_body
 from drapery.settings import OPTIONS
 from drapery.style import body_of
@@ -29,24 +28,7 @@ RUG = Garment.model_validate(
     {"name": "rug", "piece": [{"name": "rug", "size": [8, 8], "points": [4, 4]}],
      "pin": [{"piece": "rug", "at": "top"}]}
 )  # fmt: skip
-TEXELS = np.full((64, 64, 4), (200, 10, 10, 255), np.uint8)
-SHEET = np.full((32, 64, 4), (10, 10, 200, 255), np.uint8)
-SHEET[::2] = 200
 SMALL: dict[str, Any] = {"size": (24, 32), "time": 0.5, "wind": 9.0, "grid": (4, 7)}
-OTHERS: dict[str, Any] = {
-    "packs": [MemoryPack(textures={
-        f"minecraft:entity/{name}": TEXELS
-        for name in ("banner/banner_base", "banner/base", "shield/shield_base", "shield/base")
-    })],
-    "kind": "shield", "texture": SHEET[::-1], "pose": "vanilla", "placement": "wall", "rotation": 3,
-    "facing": "east", "view": "back", "turntable": True, "size": (32, 24), "grid": (5, 8),
-    "solver": "desbrun", "fabric": "silk", "forces": [Drag(9.0)], "pins": "corners",
-    "contact": "none", "wind": 4.5, "direction": 100.0, "gusts": 1.5, "time": 1.0, "seed": 7,
-    "style": "felt", "finish": "fabric", "thickness": 4.0, "background": "#ff0000",
-    "ground": "stone", "samples": 4, "pixel": 2, "light": "flat", "block_light": 9,
-    "sky_light": 2, "daylight": 0.1, "shadow": True,
-}  # fmt: skip
-"""Another value of each option."""
 BESIDE: dict[str, dict[str, Any]] = {
     "block_light": {"sky_light": 3},
     "daylight": {"sky_light": 3},
@@ -55,13 +37,6 @@ BESIDE: dict[str, dict[str, Any]] = {
     "contact": {"direction": 180.0, "time": 2.0},
 }
 """What makes an option seen."""
-UNSEEN = {
-    "format": "is for packs of another layout",
-    "layers": "looks the same where nothing is translucent",
-    "pbr": "needs maps of a pack",
-    "backend": "draws the same",
-}
-"""Options that need not change these pictures."""
 
 
 @dataclass(frozen=True)
@@ -211,10 +186,6 @@ def played(subject: Any, options: dict[str, Any]) -> tuple[str, bytes]:
         for kernel in panel.calls.values():
             image.add_call(kernel.arguments, {each: each for each in panel.functions})
     return str([(panel.header, list(panel.functions)) for panel in panels]), bytes(image.data)
-
-
-def test_the_table_of_other_values_is_whole() -> None:
-    assert OTHERS.keys() | UNSEEN.keys() == OPTIONS.keys() and not OTHERS.keys() & UNSEEN.keys()
 
 
 def test_each_option_affects_something() -> None:

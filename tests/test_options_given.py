@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from conftest import Run
+from option_values import another
 from source_modules import modules
 
 from drapery import Banner, Settings, draw
@@ -57,18 +58,17 @@ def test_the_package_changes_settings_by_their_method() -> None:
     assert found == []
 
 
-IN_A_WIND: dict[str, Any] = {"direction": 9.0, "gusts": 1.0, "seed": 7}
-"""Another value of each option that a `Wind` has in itself."""
+IN_A_WIND = [n for n, o in OPTIONS.items() if o.affects == ("wind",) and n != "wind"]
+"""The options that a `Wind` has in itself."""
 
 
 @pytest.mark.parametrize("name", IN_A_WIND)
 def test_an_option_of_the_wind_beside_a_wind_is_refused(name: str) -> None:
     wind = Wind((0.0, 0.0, 3.0))
-    assert IN_A_WIND.keys() | {"wind"} == {n for n, o in OPTIONS.items() if o.affects == ("wind",)}
     said = f"{name} does nothing beside a Wind of your own; set it in that Wind"
     for subject in (Banner.parse("white"), FLAG):
         with pytest.raises(OptionError, match=re.escape(said)):
-            draw(subject, Settings(wind=wind), **{name: IN_A_WIND[name]})
+            draw(subject, Settings(wind=wind), **{name: another(OPTIONS[name])})
 
 
 def test_a_wind_counts_in_place_of_the_wind_of_a_garments_file() -> None:
