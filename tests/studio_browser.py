@@ -190,6 +190,17 @@ def open_address(driver: Any, address: str) -> None:
     wait_until(lambda: driver.execute_script("return !!window.studio?.ready"))
 
 
+def open_tab(driver: Any, name: str) -> Any:
+    """Click a tab, after its group; returns its panel."""
+    tab = driver.find_element("id", f"tab-{name}")
+    group = tab.find_element("xpath", "..").get_property("id")
+    driver.find_element("css selector", f".group[aria-controls={group}]").click()
+    tab.click()
+    panel = driver.find_element("id", f"panel-{name}")
+    wait_until(panel.is_displayed)
+    return panel
+
+
 def paste(driver: Any, text: str) -> None:
     """What Ctrl+V does when no field has the focus."""
     driver.execute_script(PASTE, text)

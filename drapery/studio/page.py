@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from html import escape
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from fastapi import Request
 from nicegui import Client, ui
+from nicegui.element import Element
 
 from drapery import DraperyError, Settings
 from drapery.banner import parse_banner
@@ -27,6 +28,7 @@ from drapery.studio.widgets import on, translated_text
 from drapery.web.wasm.module import is_module_built
 
 Place = Literal["left", "viewport", "under", "side"]
+Group = Literal["Design", "Bring in", "Get out", "Library"]
 
 
 @dataclass(frozen=True)
@@ -37,36 +39,37 @@ class PagePanel:
     instead of a module. title: the text of
     its heading and tab. icon: the tab's icon, a name in Material Icons. place: panels `left` of and
     `under` the viewport are always visible in a wide window; panels at the `side` share one place,
-    with tabs. On a phone every panel except the viewport and the palette is a tab.
+    with tabs. On a phone every panel except the viewport and the palette is a tab. group: that of
+    the tab; a panel without one has no tab.
     """
 
     name: str
     title: str
     icon: str
     place: Place
+    group: Group | None = None
     part: str = ""
 
 
 PANELS = (
-    PagePanel("palette", "Dyes", "palette", "left", "dyes"),
-    PagePanel("layers", "Layers", "layers", "left"),
+    PagePanel("palette", "Dyes", "palette", "left", part="dyes"),
+    PagePanel("layers", "Layers", "layers", "left", "Design"),
     PagePanel("live", "Live", "air", "viewport"),
     PagePanel("face", "Flat", "crop_portrait", "viewport"),
-    PagePanel("steps", "History", "history", "under", "steps"),
-    PagePanel("motion", "Motion", "tune", "under"),
-    # To design, to bring in, to get out, and what is kept.
-    PagePanel("patterns", "Patterns", "grid_view", "side"),
-    PagePanel("start", "Start", "auto_awesome", "side"),
-    PagePanel("styles", "Styles", "style", "side"),
-    PagePanel("letters", "Letters", "abc", "side"),
-    PagePanel("text", "Text", "code", "side"),
-    PagePanel("picture", "Picture", "image_search", "side"),
-    PagePanel("packs", "Packs", "inventory_2", "side"),
-    PagePanel("export", "Export", "ios_share", "side"),
-    PagePanel("embed", "Embed", "share", "side"),
-    PagePanel("loom", "Loom", "handyman", "side"),
-    PagePanel("compare", "Compare", "compare", "side"),
-    PagePanel("library", "Library", "collections_bookmark", "side"),
+    PagePanel("steps", "History", "history", "under", "Design", "steps"),
+    PagePanel("motion", "Motion", "tune", "under", "Design"),
+    PagePanel("patterns", "Patterns", "grid_view", "side", "Design"),
+    PagePanel("styles", "Styles", "style", "side", "Design"),
+    PagePanel("letters", "Letters", "abc", "side", "Design"),
+    PagePanel("text", "Text", "code", "side", "Bring in"),
+    PagePanel("picture", "Picture", "image_search", "side", "Bring in"),
+    PagePanel("packs", "Packs", "inventory_2", "side", "Bring in"),
+    PagePanel("export", "Export", "ios_share", "side", "Get out"),
+    PagePanel("embed", "Embed", "share", "side", "Get out"),
+    PagePanel("loom", "Loom", "handyman", "side", "Get out"),
+    PagePanel("library", "Library", "collections_bookmark", "side", "Library"),
+    PagePanel("start", "Start", "auto_awesome", "side", "Library"),
+    PagePanel("compare", "Compare", "compare", "side", "Library"),
 )
 
 FIRST_TAB = "patterns"
@@ -192,18 +195,37 @@ def _panels(session: Session, place: str) -> None:
 
 
 def _tabs() -> None:
-    with ui.element("div").classes("tabs").props("role=tablist") as tabs:
-        tabs.props["aria-label"] = translated("Panels")
-        for panel in PANELS:
-            if panel.place == "viewport" or panel.name == "palette":
-                continue
-            first = panel.name == FIRST_TAB
-            tab = ui.element("button").classes(f"tab tab-{panel.place}")
-            tab.props(
-                f'id="tab-{panel.name}" type="button" role="tab" data-panel="{panel.name}"'
-                f' aria-controls="panel-{panel.name}" aria-selected="{str(first).lower()}"'
-                f' tabindex="{0 if first else -1}"'
-            )
-            with tab:
-                ui.icon(panel.icon).props('aria-hidden="true"')
-                translated_text(panel.title).classes("tab-title")
+    """The groups, and the tabs of each; `studio.js` shows those of one group."""
+    titles = get_args(Group)
+    with ui.element("div").classes("tabs"):
+        with _tab_list("groups", "Panels"):
+            for number, title in enumerate(titles):
+                _tab(f"group-{number}", f"tabs-{number}", title, not number).classes("group")
+        for number, title in enumerate(titles):
+            with _tab_list("tabs-of", title) as tabs:
+                tabs.props.update({"id": f"tabs-{number}", "hidden": number > 0})
+                for panel in (panel for panel in PANELS if panel.group == title):
+                    _tab_of(panel)
+
+
+def _tab_list(name: str, label: str) -> Element:
+    tabs = ui.element("div").classes(name).props("role=tablist")
+    tabs.props["aria-label"] = translated(label)
+    return tabs
+
+
+def _tab_of(panel: PagePanel) -> None:
+    is_first = panel.name == FIRST_TAB
+    tab = _tab(f"tab-{panel.name}", f"panel-{panel.name}", panel.title, is_first, panel.icon)
+    tab.classes(f"tab tab-{panel.place}").props["data-panel"] = panel.name
+
+
+def _tab(identity: str, controls: str, title: str, chosen: bool, icon: str = "") -> Element:
+    tab = ui.element("button").props("type=button role=tab")
+    tab.props.update({"id": identity, "aria-controls": controls, "tabindex": chosen - 1})
+    tab.props["aria-selected"] = str(chosen).lower()
+    with tab:
+        if icon:
+            ui.icon(icon).props('aria-hidden="true"')
+        translated_text(title).classes("tab-title")
+    return tab

@@ -58,24 +58,29 @@ function writeAddress(link, name) {
   }
 }
 
-// Tabs. On a wide window the panels at the left and below the viewport are always visible.
+// Tabs, in groups. On a wide window the panels at the left and below the viewport are always visible.
 function tab(name) {
-  for (const each of document.querySelectorAll(".tab")) {
-    const chosen = each.dataset.panel === name;
-    each.setAttribute("aria-selected", chosen);
-    each.tabIndex = chosen ? 0 : -1;
-    document.getElementById(each.dataset.panel && `panel-${each.dataset.panel}`)?.toggleAttribute("data-active", chosen);
+  const chosen = document.getElementById(`tab-${name}`);
+  const list = chosen.parentElement;
+  for (const each of document.querySelectorAll(".groups > *, .tabs-of > *")) {
+    const target = document.getElementById(each.getAttribute("aria-controls"));
+    const isChosen = each === chosen || target === list;
+    const isGroup = each.matches(".group");
+    each.setAttribute("aria-selected", isChosen);
+    if (isGroup || each.parentElement === list) each.tabIndex = isChosen ? 0 : -1;
+    if (isGroup) target.hidden = !isChosen;
+    else target.toggleAttribute("data-active", isChosen);
   }
 }
 
-function visibleTabs() {
-  return [...document.querySelectorAll(".tab")].filter((each) => each.offsetParent);
+// Open what was chosen last of a list of tabs, if it is there at this width.
+function openTabs(list) {
+  list.hidden = false;
+  const seen = [...list.children].filter((each) => each.offsetParent);
+  tab((seen.find((each) => !each.tabIndex) ?? seen[0]).dataset.panel);
 }
 
-WIDE.addEventListener("change", () => {
-  const chosen = document.querySelector('.tab[aria-selected="true"]');
-  if (!chosen?.offsetParent && visibleTabs().length) tab(visibleTabs()[0].dataset.panel);
-});
+WIDE.addEventListener("change", () => openTabs(document.querySelector(".tabs-of:not([hidden])")));
 
 // The theme follows the system until the user chooses one.
 function toggleTheme() {
@@ -142,7 +147,7 @@ window.addEventListener("keydown", (event) => {
 
 // Arrow keys walk among tabs and choose them.
 document.addEventListener("keydown", (event) => {
-  const here = event.target.closest?.(".tab");
+  const here = event.target.closest?.("[role=tab]");
   if (!here || event.altKey || event.ctrlKey || event.metaKey) return;
   const all = [...here.parentElement.children].filter((each) => each.offsetParent);
   const at = all.indexOf(here);
@@ -163,6 +168,7 @@ document.addEventListener("click", (event) => {
   if (copying) copy(document.getElementById(copying.dataset.copy).value, copying);
   else if (pressed("[data-act]")) act(pressed("[data-act]").dataset.act);
   else if (pressed(".tab")) tab(pressed(".tab").dataset.panel);
+  else if (pressed(".group")) openTabs(document.getElementById(pressed(".group").getAttribute("aria-controls")));
   else if (pressed(".theme")) toggleTheme();
   else if (pressed(".help")) document.getElementById("shortcuts").showModal();
   else if (pressed("#shortcuts .button") || event.target.id === "shortcuts") document.getElementById("shortcuts").close();

@@ -21,6 +21,7 @@ from studio_browser import (
     notices,
     open_browser,
     open_page,
+    open_tab,
     paste,
     resize,
     wait_until,
@@ -50,11 +51,6 @@ def find(page: Any, selector: str) -> Any:
 
 def click(page: Any, selector: str) -> None:
     find(page, selector).click()
-
-
-def tab(page: Any, name: str) -> None:
-    click(page, f"#tab-{name}")
-    wait_until(lambda: find(page, f"#panel-{name}").is_displayed())
 
 
 def written(page: Any) -> str:
@@ -197,7 +193,7 @@ FORMS = {
 
 @pytest.mark.parametrize("text", FORMS.values(), ids=FORMS)
 def test_what_is_pasted_is_read(page: Any, text: str) -> None:
-    tab(page, "text")
+    open_tab(page, "text")
     find(page, "#design-text").send_keys(text, Keys.CONTROL, Keys.ENTER)
     is_now(page, "red creeper:lime border:black")
     shows(page, "red creeper:lime border:black")
@@ -206,7 +202,7 @@ def test_what_is_pasted_is_read(page: Any, text: str) -> None:
 def test_broken_text_shows_the_line_and_the_page_goes_on(page: Any) -> None:
     paste(page, "white creeper:mauve")
     wait_until(lambda: "unknown dye 'mauve'" in alert(page))
-    tab(page, "text")
+    open_tab(page, "text")
     assert "unknown dye 'mauve'" in find(page, ".panel-text .fault").text
     secret = Path(__file__).resolve()
     paste(page, str(secret))
@@ -244,7 +240,7 @@ def test_the_text_is_copied_by_one_click(page: Any) -> None:
     page.execute_cdp_cmd("Browser.grantPermissions", grant)
     paste(page, "white creeper:lime")
     is_now(page, "white creeper:lime")
-    tab(page, "text")
+    open_tab(page, "text")
     click(page, "[data-copy=written]")
     wait_until(lambda: find(page, "[data-copy=written]").text.endswith("Copied"))
     read = "navigator.clipboard.readText().then(arguments[0])"
@@ -254,7 +250,7 @@ def test_the_text_is_copied_by_one_click(page: Any) -> None:
 def test_the_loom_stops_at_six_and_says_what_is_needed(page: Any) -> None:
     # Soft edges show through a second layer of the same pattern; a whole field hides all below.
     paste(page, "white " + "creeper:lime base:black " * 3 + "flower:red")
-    tab(page, "loom")
+    open_tab(page, "loom")
     wait_until(lambda: len(page.find_elements(By.CSS_SELECTOR, ".steps li")) == 7)
     assert (
         find(page, ".panel-layers .head .hint").text == "7 of 16 · Over 6 layers: by commands only"
@@ -295,10 +291,12 @@ def test_words_stand_out_from_what_is_behind_them(
     paste(page, "white " + "creeper:lime border:black " * 4)
     wait_until(lambda: len(titles(page)) >= 9 or size == PHONE)
     click(page, "[data-dye=red]")
-    for panel in page.find_elements(By.CSS_SELECTOR, ".tab"):
-        if panel.is_displayed():
-            panel.click()
-            assert page.execute_script(CONTRAST) == []
+    for group in page.find_elements(By.CSS_SELECTOR, ".group"):
+        group.click()
+        for panel in page.find_elements(By.CSS_SELECTOR, ".tab"):
+            if panel.is_displayed():
+                panel.click()
+                assert page.execute_script(CONTRAST) == []
     assert page.execute_script("return document.documentElement.scrollWidth") <= size[0]
 
 
@@ -368,7 +366,7 @@ def test_a_style_is_chosen_by_its_picture(page: Any) -> None:
         return bool(page.execute_script(script, find(page, f"[data-style={name}] img")))
 
     assert not drawn("ink")  # nothing is drawn for a panel that is not shown
-    tab(page, "styles")
+    open_tab(page, "styles")
     wait_until(lambda: drawn("game"))
     click(page, "[data-style=few-bends]")
     pressed = "[data-style=few-bends][aria-pressed=true]"

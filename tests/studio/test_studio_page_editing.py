@@ -195,7 +195,7 @@ def test_the_live_view_comes_first_at_every_width(
     assert top < size[1] / 2
     assert wide <= size[0]
     assert over == 0
-    assert rows <= (1 if size[0] < 1000 else 2)
+    assert rows == 1
     assert covered == 0
     if size[0] < 1000:
         chromium.execute_script("window.scrollTo(0, 400)")

@@ -56,6 +56,7 @@ def test_a_banner_is_designed_waves_and_becomes_a_file(page: Firefox) -> None:
     page.click("input.title")
     page.press(*"Jolly Roger", TAB)
     wait_until(lambda: page.ask("document.title").startswith("Jolly Roger - "))
+    page.click(".group[aria-controls=tabs-2]")
     page.click("#tab-export")
     page.click("#panel-export button[aria-label='Export the file']")
     link = "document.querySelector('#panel-export .export-link')"

@@ -24,6 +24,7 @@ from studio_browser import (
     console_errors,
     drop,
     open_page,
+    open_tab,
     paste,
     resize,
     wait_until,
@@ -63,11 +64,6 @@ def click(page: Any, selector: str) -> None:
 def click_text(page: Any, text: str) -> None:
     found = wait_until(lambda: page.find_elements("xpath", f"//button[normalize-space()='{text}']"))
     next(each for each in found if each.is_displayed()).click()
-
-
-def open_tab(page: Any, name: str) -> None:
-    click(page, f"#tab-{name}")
-    wait_until(find(page, f"#panel-{name}").is_displayed)
 
 
 def fill(page: Any, label: str, value: str) -> None:
@@ -297,6 +293,7 @@ def test_on_a_phone(phone: Any) -> None:
     down.move_to(grip, 0, int(height * 1.3)).pointer_up()
     finger.perform()
     is_now(phone, "blue creeper:black flower:black border:black")
+    tap(phone, ".group[aria-controls=tabs-2]")
     tap(phone, "#tab-export")
     tap(phone, "#panel-export button[aria-label='Export the file']")
     wait_until(find(phone, "#panel-export .export-link").is_displayed)
@@ -342,11 +339,9 @@ def test_with_the_keyboard_alone(page: Any) -> None:
     walk_to(page, ".layer-list li[data-at='1'] .layer")
     press_with(page, Keys.ALT, Keys.ARROW_DOWN)
     is_now(page, "orange border:black creeper:black")
-    walk_to(page, ".tab")
-    for _ in range(30):
-        if page.execute_script("return document.activeElement.id") == "tab-export":
-            break
-        press(page, Keys.ARROW_RIGHT)
+    walk_to(page, ".group")
+    press(page, Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+    walk_to(page, "#tab-export")
     walk_to(page, "#panel-export button[aria-label='Export the file']")
     press(page, Keys.ENTER)
     wait_until(find(page, "#panel-export .export-link").is_displayed)

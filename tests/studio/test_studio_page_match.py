@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from selenium.webdriver import Keys
 from selenium.webdriver.common.by import By
-from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
+from studio_browser import WIDE, Studio, console_errors, open_page, open_tab, resize, wait_until
 
 from drapery import Banner, draw_face
 from drapery.banner import letter_banners, write_banner
@@ -20,13 +20,6 @@ def page(chromium: Any, studio: Studio) -> Any:
     open_page(chromium, studio)
     chromium.find_element(By.CSS_SELECTOR, ".live-bar button[aria-label=Pause]").click()
     return chromium
-
-
-def open_tab(page: Any, name: str) -> Any:
-    page.find_element(By.ID, f"tab-{name}").click()
-    panel = page.find_element(By.ID, f"panel-{name}")
-    wait_until(panel.is_displayed)
-    return panel
 
 
 def value(page: Any, element_id: str) -> str:
