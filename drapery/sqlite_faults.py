@@ -22,6 +22,8 @@ _CAUSES: dict[int, Cause] = {
 
 def sqlite_cause(error: BaseException | None) -> Cause:
     """The cause of an error of the module `sqlite3`."""
+    if isinstance(error, UnicodeDecodeError):
+        return "damaged"  # SQLite's message quotes bytes of the file, which are no text
     code = getattr(error, "sqlite_errorcode", None)
     if code is None:
         # It is the module's own: a text of the file is not UTF-8.

@@ -125,7 +125,7 @@ class ResultsDB:
         """Convert SQLite's errors to an OutputError with the remedy."""
         try:
             yield
-        except sqlite3.Error as error:
+        except (sqlite3.Error, UnicodeDecodeError) as error:
             raise OutputError(f"results {self.path}: {_remedy(error)}") from None
 
 
@@ -137,6 +137,6 @@ _REMEDIES = {
 }
 
 
-def _remedy(error: sqlite3.Error) -> str:
+def _remedy(error: Exception) -> str:
     refused = f"SQLite refuses it ({sqlite_name(error)}); name another with --results"
     return _REMEDIES.get(sqlite_cause(error), refused)

@@ -296,3 +296,13 @@ def test_damaged_results_are_an_error_with_the_remedy(drapery: Run, tmp_path: Pa
     code, _, err = drapery("batch", path, "-o", out)
     assert code == 2
     assert "is damaged" in err
+
+
+def test_results_whose_schema_is_no_text_are_damaged(tmp_path: Path) -> None:
+    """SQLite quotes what it cannot read, and Python cannot decode that message."""
+    path = tmp_path / FILE
+    with ResultsDB(path):
+        pass
+    path.write_bytes(path.read_bytes().replace(b"out TEXT", b"\x80ut \x81EXT"))
+    with pytest.raises(OutputError, match="is damaged; delete it"), ResultsDB(path) as results:
+        results.records()
