@@ -1,4 +1,4 @@
-"""Another value of each option than plain settings have, for tests that change one after another.
+"""Another value of each option, for tests that change one after another.
 
 An option with choices or bounds needs no line here.
 """
@@ -24,19 +24,18 @@ CHOSEN: dict[str, Any] = {
     "kind": "shield", "texture": SHEET[::-1], "placement": "wall", "view": "back",
     "size": (32, 24), "grid": (5, 8), "solver": "desbrun", "fabric": "silk", "forces": [Drag(9.0)],
     "pins": "corners", "contact": "none", "wind": 4.5, "time": 1.0, "style": "felt",
-    "thickness": 4.0, "background": "#ff0000", "ground": "stone", "samples": 4, "pixel": 2,
-    "light": "flat",
+    "thickness": 4.0, "background": "#ff0000", "ground": "stone", "pixel": 2,
 }  # fmt: skip
-"""Values that follow from no bounds, take less time, or are no subject's own."""
+"""Values that follow from no bounds, show more, or take less time."""
 SHARE = 0.75
 """How far a number goes from the default to the farther bound."""
 
 
-def another(option: Option) -> Any:
-    """Another value of an option."""
+def another(option: Option, settings: Settings | None = None) -> Any:
+    """Another value of an option than in some settings, by default plain ones."""
     if option.name in CHOSEN:
         return CHOSEN[option.name]
-    usual = getattr(Settings(), option.name)
+    usual = getattr(settings or Settings(), option.name)
     if option.type is bool:
         return not usual
     if option.choices:
@@ -55,4 +54,4 @@ SAME_LOOK = {
 }
 """Options that need not change a picture, and why."""
 OTHERS = {name: another(option) for name, option in OPTIONS.items() if name not in SAME_LOOK}
-"""Another value of each option that changes pictures."""
+"""Another value of each option that changes plain pictures."""

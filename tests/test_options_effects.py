@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from option_values import OTHERS, SHEET
+from option_values import OTHERS, SHEET, another
 
 from drapery import Banner, Frame, OptionError, Settings, animate, draw, save_model
 from drapery.garments import Garment, PlayerSettings, player_of
@@ -25,8 +25,8 @@ pytestmark = pytest.mark.filterwarnings("ignore:pins or colliders pull cloth")
 CREEPER = Banner.parse("white creeper:lime")
 SHIELD = replace(CREEPER, kind="shield")
 RUG = Garment.model_validate(
-    {"name": "rug", "piece": [{"name": "rug", "size": [8, 8], "points": [4, 4]}],
-     "pin": [{"piece": "rug", "at": "top"}]}
+    {"name": "rug", "piece": [{"name": "rug", "size": [8, 8], "points": [4, 4],
+     "place": [0, 16, 0]}], "pin": [{"piece": "rug", "at": "top"}]}
 )  # fmt: skip
 SMALL: dict[str, Any] = {"size": (24, 32), "time": 0.5, "wind": 9.0, "grid": (4, 7)}
 BESIDE: dict[str, dict[str, Any]] = {
@@ -56,8 +56,13 @@ class Shown:
         """What the table calls it."""
         if isinstance(self.subject, Garment):
             return Subject("garment")
+        return self.settings(options).subject(self.subject.kind if self.subject else "banner")
+
+    def settings(self, options: dict[str, Any]) -> Settings:
+        """What its own options and the words of a subject among some set."""
+        own = self.subject.picture if isinstance(self.subject, Garment) else {}
         named = {name: options[name] for name in Subject._fields if name in options}
-        return Settings(**named).subject(self.subject.kind if self.subject else "banner")
+        return Settings(**own, **named)
 
     def useful(self, options: dict[str, Any], output: Output, kept: str) -> dict[str, Any]:
         """The options that do something, and that one."""
@@ -105,9 +110,7 @@ SHOWN = {
     "garment": Shown(RUG, same=OWN),
     "player": Shown(
         player_of(PlayerSettings(wear=("cape",), motion="stand")),
-        {},
-        {"samples": 1},
-        OWN | {"finish": "the fabric of its cape is no preset, so it is plain"},
+        same=OWN | {"finish": "the fabric of its cape is no preset, so it is plain"},
     ),
 }
 OUTPUTS: tuple[Output, ...] = ("still", "loop", "model")
@@ -140,11 +143,11 @@ def fault(shown: Shown, option: str, output: Output, folder: Path) -> str | None
     """What is wrong with an option of a subject in an output."""
     if option == "style" and option in shown.others and output == "model":
         return None  # stiff parts are styled in pictures alone
-    value = shown.others.get(option, OTHERS[option])
+    plain = {**SMALL, **BESIDE.get(option, {}), **shown.options}
+    value = shown.others.get(option, another(OPTIONS[option], shown.settings(plain)))
     if option == "texture" and isinstance(shown.subject, Garment):
         value = folder / "texture.png"
         Frame(SHEET).save(value)
-    plain = {**SMALL, **BESIDE.get(option, {}), **shown.options}
     one, other = (shown.useful(each, output, option) for each in (plain, {**plain, option: value}))
     said = OPTIONS[option].refusal(shown.words(other), output)
     if option not in plain or said is not None:
@@ -168,7 +171,7 @@ def test_an_option_of_the_cloth_or_the_wind_changes_what_a_page_plays(name: str)
     shown, idle = SHOWN[name], []
     for option in MOVING:
         plain = {**SMALL, **BESIDE.get(option, {}), **shown.options}
-        other = {**plain, option: OTHERS[option]}
+        other = {**plain, option: another(OPTIONS[option], shown.settings(plain))}
         changed = played(shown.subject, plain) != played(shown.subject, other)
         if OPTIONS[option].applies(shown.words(plain), "page") and not changed:
             idle.append(option)
