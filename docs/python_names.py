@@ -107,5 +107,5 @@ def _parameters(parameters: griffe.Parameters) -> Iterator[str]:
 
 def _short(text: str) -> str:
     """A default value; that of an option is the first argument of a call that describes it."""
-    found = re.match(r"_?option\((.*?), ", text)
+    found = re.match(r"option_field\((.*?), ", text)
     return found[1] if found else text

@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from numbers import Integral, Real
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 from drapery.errors import OptionError, shown
@@ -239,6 +240,28 @@ class Option:
         if folder is not None and isinstance(value, str | Path) and self.is_path(value):
             value = folder / value if self.type is Path else str(folder / value)
         return value
+
+
+def option_field(default: Any, kind: Any, help: str, **more: Any) -> Any:
+    """A field of a dataclass of options, with its line of their table.
+
+    default, kind, help, more: the default, type, help and other attributes of its `Option`.
+    """
+    return field(default=default, metadata={"help": help, "type": kind, **more})
+
+
+def option_table(settings: type) -> Mapping[str, Option]:
+    """The options of a dataclass by name, in the order in which help and its docstring list them.
+
+    settings: the class, whose docstring gets a line of each option.
+    """
+    described = [each for each in fields(settings) if each.metadata]
+    table = {
+        each.name: Option(each.name, default=each.default, **each.metadata) for each in described
+    }
+    lines = [f"    {name}: {each.describe()}" for name, each in table.items()]
+    settings.__doc__ = "\n".join([f"{settings.__doc__}\n", *lines])
+    return MappingProxyType(table)
 
 
 def _from_text(text: str, kind: OptionType) -> object:

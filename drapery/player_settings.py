@@ -1,12 +1,10 @@
 """The table of a player's options: the command line, HTTP and manifests are made from it."""
-# ruff: noqa: RUF009 (`_option` returns a dataclass field)
+# ruff: noqa: RUF009 (`option_field` returns a dataclass field)
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
-from types import MappingProxyType
-from typing import Any, Literal, get_args
+from dataclasses import dataclass
+from typing import Literal, get_args
 
-from drapery.option import Option
+from drapery.option import option_field, option_table
 
 ArmsOption = Literal["auto", "classic", "slim"]
 OverlayOption = Literal["flat", "voxels", "none"]
@@ -18,10 +16,6 @@ MOTIONS = (*("walk", "stand", "run", "sneak", "jump", "glide", "swim", "sit", "w
 """The motions of a player, as help lists them; `garments/motions.toml` describes them."""
 
 
-def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
-    return field(default=default, metadata={"help": help, "type": kind, **more})
-
-
 @dataclass(frozen=True)
 class PlayerSettings:
     """Checked options of a player. `drapery.garments.player_of` makes what is drawn.
@@ -29,7 +23,7 @@ class PlayerSettings:
     Raises OptionError that names the option and its limits.
     """
 
-    skin: str = _option(
+    skin: str = option_field(
         "traveller",
         str,
         "Skin: traveller, dancer, or a PNG file, 64 x 64 or 64 x 32 or a multiple; or a profile of"
@@ -37,21 +31,21 @@ class PlayerSettings:
         metavar="FILE|NAME|PROFILE",
         audience="anyone",
     )
-    arms: ArmsOption = _option(
+    arms: ArmsOption = option_field(
         "auto",
         str,
         "Arms; auto reads them from the skin",
         choices=get_args(ArmsOption),
         audience="anyone",
     )
-    overlay: OverlayOption = _option(
+    overlay: OverlayOption = option_field(
         "flat",
         str,
         "The skin's second layer: flat, its texels as small boxes, or not at all",
         choices=get_args(OverlayOption),
         audience="anyone",
     )
-    cape: str | None = _option(
+    cape: str | None = option_field(
         None,
         str,
         "A cape: a PNG file, 64 x 32 or a multiple",
@@ -59,10 +53,10 @@ class PlayerSettings:
         metavar="FILE",
         audience="anyone",
     )
-    elytra: bool = _option(
+    elytra: bool = option_field(
         False, bool, "Wings of cloth, with the texture of the cape", audience="anyone"
     )
-    wear: tuple[str, ...] = _option(
+    wear: tuple[str, ...] = option_field(
         (),
         str,
         "Garments by name or TOML file, the innermost first",
@@ -70,7 +64,7 @@ class PlayerSettings:
         metavar="NAME|FILE",
         audience="anyone",
     )
-    head: str | None = _option(
+    head: str | None = option_field(
         None,
         str,
         "A banner on the head",
@@ -78,7 +72,7 @@ class PlayerSettings:
         metavar="DESIGN",
         audience="anyone",
     )
-    worn_design: str | None = _option(
+    worn_design: str | None = option_field(
         None,
         str,
         "A design on the pieces of cloth that show one, or on all that is worn if none does",
@@ -86,7 +80,7 @@ class PlayerSettings:
         metavar="DESIGN",
         audience="anyone",
     )
-    shield: str | None = _option(
+    shield: str | None = option_field(
         None,
         str,
         "A shield in the left hand",
@@ -94,7 +88,7 @@ class PlayerSettings:
         metavar="DESIGN",
         audience="anyone",
     )
-    armor: str | None = _option(
+    armor: str | None = option_field(
         None,
         str,
         "Armour with textures of the packs: a material, or pieces such as helmet:iron,boots:gold",
@@ -102,7 +96,7 @@ class PlayerSettings:
         metavar="MATERIAL",
         audience="anyone",
     )
-    trim: str | None = _option(
+    trim: str | None = option_field(
         None,
         str,
         "Trim of the armour, such as coast:gold",
@@ -110,7 +104,7 @@ class PlayerSettings:
         metavar="PATTERN:MATERIAL",
         audience="anyone",
     )
-    motion: str = _option(
+    motion: str = option_field(
         "walk",
         str,
         f"{', '.join(MOTIONS)}, a pose in a JSON file, layers such as walk+wave,"
@@ -118,7 +112,7 @@ class PlayerSettings:
         metavar="NAME|FILE",
         audience="anyone",
     )
-    speed: float = _option(
+    speed: float = option_field(
         1.5,
         float,
         "Speed over the ground",
@@ -126,7 +120,7 @@ class PlayerSettings:
         unit="m/s",
         audience="anyone",
     )
-    look: str = _option(
+    look: str = option_field(
         "0,0",
         str,
         "How many degrees the head turns to its left and down, or the point at which it looks:"
@@ -134,7 +128,7 @@ class PlayerSettings:
         metavar="LEFT,DOWN|X,Y,Z",
         audience="anyone",
     )
-    shown: ShownOption = _option(
+    shown: ShownOption = option_field(
         "full", str, "What is shown", choices=get_args(ShownOption), audience="anyone"
     )
 
@@ -143,15 +137,5 @@ class PlayerSettings:
             object.__setattr__(self, name, option.check(getattr(self, name)))
 
 
-PLAYER_OPTIONS: Mapping[str, Option] = MappingProxyType(
-    {f.name: Option(f.name, default=f.default, **f.metadata) for f in fields(PlayerSettings)}
-)
+PLAYER_OPTIONS = option_table(PlayerSettings)
 """The options of a player by name, in the order in which help lists them."""
-
-
-PlayerSettings.__doc__ = "\n".join(
-    [
-        f"{PlayerSettings.__doc__}\n",
-        *(f"    {name}: {o.describe()}" for name, o in PLAYER_OPTIONS.items()),
-    ]
-)

@@ -3,21 +3,21 @@
 `Settings` holds the values, `OPTIONS` describes them. The command line, HTTP parameters, columns of
 manifests, files of cases and the studio's fields are made from the table.
 """
-# ruff: noqa: RUF009 (`_option` returns a dataclass field)
+# ruff: noqa: RUF009 (`option_field` returns a dataclass field)
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import wraps
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, TypedDict, Unpack, get_args
 
 from drapery.errors import OptionError, shown
-from drapery.option import Effect, Option, Output, Subject, within
+from drapery.option import Effect, Option, Output, Subject, option_field, option_table, within
 
 if TYPE_CHECKING:
     from drapery.arrays import Texels
@@ -137,11 +137,6 @@ def _is_style(value: object) -> bool:
     return isinstance(value, Path) or _has("steps", "settle")(value)
 
 
-def _option(default: Any, kind: Any, help: str, **more: Any) -> Any:
-    """A field of `Settings` with its line of the table; see `Option`."""
-    return field(default=default, metadata={"help": help, "type": kind, **more})
-
-
 def _ground_of(settings: Settings) -> str:
     """The block of the ground or wall where none is given."""
     if settings.is_hero:
@@ -186,7 +181,7 @@ class Settings:
     Raises OptionError that names the option and its limits.
     """
 
-    packs: PackLike | Sequence[PackLike] = _option(
+    packs: PackLike | Sequence[PackLike] = option_field(
         (),
         Path,
         "Resource packs (folder, zip or jar); where several have a file, the last one counts",
@@ -197,7 +192,7 @@ class Settings:
         affects=("surface",),
         not_for=("link",),
     )
-    format: int | None = _option(
+    format: int | None = option_field(
         None,
         int,
         "Read packs as the game of this pack format does; 46 is 1.21.4",
@@ -206,7 +201,7 @@ class Settings:
         metavar="N",
         affects=("surface",),
     )
-    kind: Kind = _option(
+    kind: Kind = option_field(
         "auto",
         str,
         "What is drawn; auto takes it from the design",
@@ -215,7 +210,7 @@ class Settings:
         affects=("motion", "shape"),
         not_for=(*_BY_FILE, "link"),
     )
-    texture: str | Path | Texels | None = _option(
+    texture: str | Path | Texels | None = option_field(
         None,
         Path,
         "Texture of a cape or elytra: a PNG file, 64 x 32 or a multiple",
@@ -226,7 +221,7 @@ class Settings:
         not_for=("banner", "shield", "player", "face", "link"),
         remedy="for a cape use kind cape, for a player cape",
     )
-    pose: Pose = _option(
+    pose: Pose = option_field(
         "cloth",
         str,
         "cloth is simulated; vanilla is the game's stiff sway",
@@ -235,7 +230,7 @@ class Settings:
         affects=("motion", "shape"),
         not_for=(*_BY_FILE, "shield", "elytra", "item", "page"),
     )
-    placement: Placement = _option(
+    placement: Placement = option_field(
         "standing",
         str,
         "On a pole, on a wall, or an item in its slot of the inventory",
@@ -244,7 +239,7 @@ class Settings:
         affects=("motion", "shape", "camera"),
         not_for=_BY_FILE,
     )
-    rotation: int = _option(
+    rotation: int = option_field(
         0,
         int,
         "Turn of a standing banner in sixteenths: 0 south, 4 west, 8 north, 12 east",
@@ -253,7 +248,7 @@ class Settings:
         affects=("shape", "camera"),
         not_for=("wall", "item"),
     )
-    facing: Facing | None = _option(
+    facing: Facing | None = option_field(
         None,
         str,
         "Where a banner on a wall looks to",
@@ -263,7 +258,7 @@ class Settings:
         affects=("shape",),
         not_for=("standing", "item", *_BY_FILE),
     )
-    view: str | View = _option(
+    view: str | View = option_field(
         "front",
         str,
         "Where the camera stands",
@@ -272,7 +267,7 @@ class Settings:
         audience="anyone",
         affects=("camera",),
     )
-    turntable: bool = _option(
+    turntable: bool = option_field(
         False,
         bool,
         "Let the camera go once around the subject in the time of an animation",
@@ -280,7 +275,7 @@ class Settings:
         affects=("camera",),
         not_for=("still", "page", "model"),
     )
-    size: tuple[int, int] = _option(
+    size: tuple[int, int] = option_field(
         (512, 512),
         int,
         "Width and height of the picture",
@@ -290,7 +285,7 @@ class Settings:
         audience="anyone",
         affects=("camera", "file"),
     )
-    grid: tuple[int, int] = _option(
+    grid: tuple[int, int] = option_field(
         (16, 31),
         int,
         "Particles across and down the cloth",
@@ -301,7 +296,7 @@ class Settings:
         affects=("motion",),
         not_for=_BY_FILE,
     )
-    solver: SolverName | Solver = _option(
+    solver: SolverName | Solver = option_field(
         "xpbd",
         str,
         "Method that moves the cloth",
@@ -309,7 +304,7 @@ class Settings:
         takes=_has("init", "step"),
         affects=("motion",),
     )
-    fabric: FabricName | Fabric = _option(
+    fabric: FabricName | Fabric = option_field(
         "wool",
         str,
         "Material of the cloth",
@@ -319,7 +314,7 @@ class Settings:
         affects=("motion", "wind"),
         not_for=_BY_FILE,
     )
-    forces: Sequence[Force] = _option(
+    forces: Sequence[Force] = option_field(
         (),
         None,
         "forces on the cloth beside gravity and the wind",
@@ -328,7 +323,7 @@ class Settings:
         audience="python",
         affects=("motion",),
     )
-    pins: Pins | None = _option(
+    pins: Pins | None = option_field(
         None,
         str,
         "Where the cloth is held",
@@ -338,7 +333,7 @@ class Settings:
         affects=("motion",),
         not_for=_BY_FILE,
     )
-    contact: Contact = _option(
+    contact: Contact = option_field(
         "all",
         str,
         "What the cloth cannot pass through: nothing, the world around it, or all: itself too",
@@ -347,7 +342,7 @@ class Settings:
         affects=("motion",),
         not_for=_BY_FILE,
     )
-    wind: float | Wind = _option(
+    wind: float | Wind = option_field(
         4.0,
         float,
         "Mean wind speed",
@@ -357,7 +352,7 @@ class Settings:
         audience="anyone",
         affects=("wind",),
     )
-    direction: float | None = _option(
+    direction: float | None = option_field(
         None,
         float,
         "Where the wind blows to: 0 out of the front, 90 to the viewer's right",
@@ -368,7 +363,7 @@ class Settings:
         audience="anyone",
         affects=("wind",),
     )
-    gusts: float = _option(
+    gusts: float = option_field(
         0.4,
         float,
         "Strength of the gusts: their rms over the mean wind speed",
@@ -376,7 +371,7 @@ class Settings:
         audience="anyone",
         affects=("wind",),
     )
-    time: float = _option(
+    time: float = option_field(
         3.0,
         float,
         "How long the cloth has hung in the wind when it is drawn",
@@ -386,7 +381,7 @@ class Settings:
         affects=("motion", "animation"),
         not_for=("loop",),
     )
-    seed: int = _option(
+    seed: int = option_field(
         0,
         int,
         "Number that selects a sequence of gusts",
@@ -394,7 +389,7 @@ class Settings:
         audience="anyone",
         affects=("wind",),
     )
-    layers: LayerMode = _option(
+    layers: LayerMode = option_field(
         "stacked",
         str,
         "Quads one over the other as in the game, or one composite",
@@ -403,14 +398,14 @@ class Settings:
         affects=("surface",),
         not_for=(*_BY_FILE, "cape", "elytra", "page", "model", "face"),
     )
-    pbr: bool = _option(
+    pbr: bool = option_field(
         False,
         bool,
         "Light by the LabPBR maps of the packs (_n and _s)",
         affects=("surface",),
         not_for=(*_BY_FILE, "cape", "elytra", "page", "model", "face"),
     )
-    style: StyleLike | Sequence[StyleLike] = _option(
+    style: StyleLike | Sequence[StyleLike] = option_field(
         (),
         str,
         "How it looks: the name of a style or a TOML file; several are applied in their order",
@@ -422,7 +417,7 @@ class Settings:
         affects=("shape", "surface", "light", "file"),
         not_for=("face",),
     )
-    finish: FinishName = _option(
+    finish: FinishName = option_field(
         None,
         str,
         "The cloth's surface: weave, gloss and fuzz of its fabric, or plain",
@@ -436,7 +431,7 @@ class Settings:
         ),
         resolve=_finish_of,
     )
-    thickness: float = _option(
+    thickness: float = option_field(
         1.0,
         float,
         "Thickness of the cloth; a texel is 1/24 m, and 0 is a bare sheet",
@@ -446,14 +441,14 @@ class Settings:
         affects=("motion", "shape"),
         not_for=(*_BY_FILE, "shield", "elytra"),
     )
-    background: str = _option(
+    background: str = option_field(
         "transparent",
         str,
         "Colour behind the picture: transparent or #rrggbb",
         audience="anyone",
         affects=("file",),
     )
-    ground: str = _option(
+    ground: str = option_field(
         None,
         str,
         "Block below a standing banner, or wall behind one: none, grass, stone or another block",
@@ -463,7 +458,7 @@ class Settings:
         not_for=("item", "model"),
         resolve=_ground_of,
     )
-    samples: Samples = _option(
+    samples: Samples = option_field(
         None,
         int,
         "Samples of each pixel; 1 gives the hard edges of pixel art",
@@ -472,7 +467,7 @@ class Settings:
         affects=("file",),
         resolve=lambda settings: 4 if settings.is_hero else 1,
     )
-    pixel: int = _option(
+    pixel: int = option_field(
         1,
         int,
         "Draw smaller, then enlarge each pixel to a square of this side",
@@ -481,7 +476,7 @@ class Settings:
         affects=("file",),
         not_for=("page",),
     )
-    light: Lighting = _option(
+    light: Lighting = option_field(
         None,
         str,
         "The game's two lights, the flat colours of the textures, or lights that cast shadows",
@@ -490,35 +485,35 @@ class Settings:
         affects=("light",),
         resolve=_light_of,
     )
-    block_light: int = _option(
+    block_light: int = option_field(
         0,
         int,
         "Light level of torches",
         bounds=(0, MAX_LIGHT),
         affects=("light",),
     )
-    sky_light: int = _option(
+    sky_light: int = option_field(
         MAX_LIGHT,
         int,
         "Light level of the sky",
         bounds=(0, MAX_LIGHT),
         affects=("light",),
     )
-    daylight: float = _option(
+    daylight: float = option_field(
         1.0,
         float,
         "1 at noon, 0 at night",
         bounds=(0, 1),
         affects=("light",),
     )
-    shadow: bool = _option(
+    shadow: bool = option_field(
         False,
         bool,
         "Draw a soft shadow on the floor",
         affects=("light",),
         not_for=("item",),
     )
-    backend: str | DrawScene = _option(
+    backend: str | DrawScene = option_field(
         "auto",
         str,
         "Renderer: auto, soft, pyrender, or one of an installed package",
@@ -661,13 +656,7 @@ class Settings:
         return self.rotation * 360.0 / ROTATIONS
 
 
-OPTIONS: Mapping[str, Option] = MappingProxyType(
-    {
-        f.name: Option(f.name, default=f.default, **f.metadata)
-        for f in fields(Settings)
-        if f.metadata
-    }
-)
+OPTIONS = option_table(Settings)
 """The options of a picture by name, in the order in which help lists them."""
 
 _RESOLVED = {name: option.resolve for name, option in OPTIONS.items() if option.resolve}
@@ -715,10 +704,6 @@ LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
     }
 )
 """The options that an animation has beside those of a picture."""
-
-Settings.__doc__ = "\n".join(
-    [f"{Settings.__doc__}\n", *(f"    {name}: {o.describe()}" for name, o in OPTIONS.items())]
-)
 
 
 def frame_count(seconds: float, fps: float) -> int:

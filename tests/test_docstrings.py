@@ -50,7 +50,7 @@ class Described:
             for each in taken
             if each.name not in ("self", "cls", "model_config")
             and not each.name.startswith("_")
-            and not str(_value(each)).startswith("_option(")
+            and not str(_value(each)).startswith("option_field(")
             and not _has_docstring(self.found, each.name)
         ]
 
