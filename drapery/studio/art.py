@@ -51,7 +51,7 @@ def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
 def face_address(
     document: Document, banner: Banner, scale: int = FACE_SCALE, pack: str = "now"
 ) -> str:
-    """The address of the flat face of any design, from that of the page.
+    """The address of the flat face of any design, from the page's address.
 
     pack: the tab's packs as they are `now`, its `own` art alone, or the number of one of its packs.
     """

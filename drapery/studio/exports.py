@@ -54,8 +54,8 @@ def make(
 ) -> None:
     """Write the file, as the command of `snippets.as_command` does.
 
-    on_moment: called at each moment of the motion of a loop's cloth with its number and that of the
-    last one. If it or progress raises, the work stops and no file remains.
+    on_moment: called at each moment of a loop's cloth with its number and the last one's.
+    If it or progress raises, the work stops and no file remains.
     Raises OptionError, PackError, BackendError or OutputError.
     """
     from drapery import save_model

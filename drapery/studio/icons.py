@@ -55,7 +55,7 @@ def _own_address(item: str) -> str:
 
 
 def own_icon(item: str) -> Texels:
-    """Our own icon of an item, uint8 [8, 8, 4]; that of paper for an unknown one."""
+    """Our own icon of an item, uint8 [8, 8, 4]; the icon of paper for an unknown one."""
     dye, _, kind = item.rpartition("_")
     shape, colour = _SHAPES.get(item, (item, (0, 0, 0)))
     if kind in ("wool", "dye") and dye in DYES:

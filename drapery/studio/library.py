@@ -156,7 +156,7 @@ class Library:
         return self.add_new(read_designs(data))
 
     def add_new(self, designs: Iterable[Design]) -> tuple[int, int]:
-        """Add those designs that are not here yet; returns their number and that of the others.
+        """Add those designs that are not here yet; returns their number and the number of others.
 
         designs: each as `checked` returns it. Raises DesignError or OutputError; then adds none.
         """

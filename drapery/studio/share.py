@@ -57,8 +57,8 @@ def opened_link(base: Settings, link: str) -> tuple[Settings, Sketch]:
 def with_shared(base: Settings, settings: Settings) -> Settings:
     """`base` with the shared options of `settings`.
 
-    A format of None leaves that of `base`, and no style leaves those of `base` that a link cannot
-    name.
+    A format of None leaves the format of `base`, and no style leaves those of `base` that a link
+    cannot name.
     """
     own = {name: value for name, value in base.given_values.items() if name not in SHARED}
     chosen = {name: value for name, value in settings.given_values.items() if name in SHARED}

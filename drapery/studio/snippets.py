@@ -150,7 +150,7 @@ def _player_words(player: PlayerSettings, called: Mapping[str, str]) -> dict[str
 
 
 def _garment_name(garment: str, called: Mapping[str, str]) -> str:
-    """The name of a garment of the package, or that of a file of the user."""
+    """The name of a garment of the package, or the name of a file of the user."""
     return called.get(garment, Path(garment).name)
 
 
@@ -296,7 +296,7 @@ def option_names(request: ExportRequest) -> tuple[str, ...]:
     if request.kind not in OUTPUTS:
         return ()
     if drawn_garment(request) is not None:
-        subject = Subject("player")  # the studio's texture is that of its cape
+        subject = Subject("player")  # its cape has the studio's texture
     else:
         subject = request.settings.subject(request.banner.kind if request.banner else "banner")
     return tuple(

@@ -35,7 +35,7 @@ _FIXED = 8
 
 
 def translated(text: str, to: str = "") -> str:
-    """A text in a language, by default that of the user whose page is being built or changed.
+    """A text in a language, by default the user's whose page is being built or changed.
 
     Places may be filled in: "a.zip is empty; send it again" is translated like the catalogue's
     "{name} is empty; send it again".

@@ -17,7 +17,7 @@ MAX_SCALE = 4
 
 
 def face_bytes(kind: Literal["banner", "shield"], packs: Packs, patterns: Sequence[str]) -> bytes:
-    """The front of each pattern's sheet, behind that of the bare cloth or plate and of the base.
+    """The front of each pattern's sheet, behind the fronts of the bare cloth or plate and the base.
 
     A message, compressed with gzip: the header has `sheets`, the patterns' names, "" for what is
     bare; `front`, the width and height of a face [texels]; and `scale`, the texels of a unit. The

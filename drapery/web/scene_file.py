@@ -119,7 +119,7 @@ def called_kernels(files: Mapping[str, bytes]) -> set[str]:
 def fabric_bytes(packs: Packs, settings: Settings) -> bytes:
     """The file of a banner's plans in all fabrics: a message with an array for each.
 
-    A byte is the one of the fabric's plan, exclusive or that of the scene's own. Raises as
+    A byte is the one of the fabric's plan, exclusive or the byte of the scene's own plan. Raises as
     `scene_bytes` does.
     """
 

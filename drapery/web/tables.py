@@ -38,7 +38,7 @@ _CODED = {"1.13": "give-legacy", "1.8": "give-1.12", "bedrock": "bedrock"}
 
 @cache
 def languages() -> dict[str, Any]:
-    """The designer's languages by code: their own name, that of the game, and their texts."""
+    """The designer's languages by code: their own name, the game's name, and their texts."""
     found: dict[str, Any] = json.loads(LANGUAGES_PATH.read_text(encoding="utf-8"))
     return found
 

@@ -64,8 +64,8 @@ that it fails; `image`: the image's length in memory, which is at least that in 
 is 0; `pointers`: places of 32-bit pointers in the image, whose values count from its start;
 `functions`: places of the addresses of kernels that kernels call, with their names; `fields`: the
 places, types and lengths of the arrays and numbers that the loader uses, and the call that writes
-them, if it is not `play`; `module`: the hash of the sources for which it is valid. The order of a
-kernel's arguments in the image is that of numba's data models; nothing about it is written by hand.
+them, if it is not `play`; `module`: the hash of the sources for which it is valid. Numba's
+data models give the order of a kernel's arguments in the image; none of it is written by hand.
 
 From Python: `drapery.web.wasm.plan.plans_of(played)` gives the plans of a subject's cloths,
 and `drapery.web.wasm.module.read_module()` the module.
