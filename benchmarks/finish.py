@@ -22,7 +22,7 @@ from drapery.render.soft import draw_scene
 from drapery.scenes import still
 from drapery.settings import Settings
 
-DESIGN = "red rhombus:yellow stripe_bottom:white border:blue"
+DESIGN = "white rhombus:red stripe_bottom:light_blue"
 SIZES = (128, 256, 512, 1024)
 FINISHES: tuple[Literal["plain", "fabric"], ...] = ("plain", "fabric")
 

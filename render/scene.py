@@ -48,6 +48,13 @@ class SurfaceDetail:
     sharpness: of the highlights: the cosine of the angle to their middle is squared this many
         times.
     fuzz: how much brighter the surface is where one looks along it.
+    strips: what is added along upright and level edges, shape [2, 256, 32, 4], uint8, or None: 32
+        texels from the edge inwards, of the tile's size, which repeat along it. The first two of
+        their numbers are slopes inwards and along the edge, the third is the light, each over 128
+        and less one; the fourth is the share of the tile that shows, of 255: the rest is smooth
+        and has the whole gloss.
+    edges: where the surface ends on the texture: left, top, right and bottom as fractions of it,
+        one or two of them.
     """
 
     tile: Texels
@@ -57,6 +64,8 @@ class SurfaceDetail:
     along: float = 0.0
     sharpness: int = 3
     fuzz: float = 0.0
+    strips: Texels | None = None
+    edges: tuple[tuple[float, float, float, float], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""How each fabric looks: its weave, nap or grain, its gloss and its fuzz, one row a fabric.
+"""How each fabric looks: its weave, nap or grain, its edges, gloss and fuzz, one row a fabric.
 
 A tile repeats over the cloth, PITCH texels of it to the metre. It is drawn from heights: slopes
 bend the light, hollows are darker, and what stands out shines. Threads are about ten times as thick
@@ -18,7 +18,17 @@ from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
 from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, SurfaceDetail
-from drapery.style.uv_mapping import UVMapping
+from drapery.style.edges import (
+    blanket_stitch,
+    cut,
+    drawn_thread,
+    hem,
+    pared,
+    rolled,
+    selvage,
+)
+from drapery.style.surface import Surface, noise, smoothstep
+from drapery.style.uv_mapping import Rect, UVMapping
 
 SIDE = 256
 """Side of a tile [texels of it]; periods of weaves divide it."""
@@ -26,24 +36,17 @@ PITCH = 384
 """Texels of a tile along a metre of cloth: 16 for each texel of a flag."""
 
 
-@dataclass(frozen=True, eq=False)
-class Surface:
-    """Of each texel of a tile, shape [SIDE, SIDE].
-
-    height: [texels of the tile]. tone: how much lighter it is than the dye, -1 to 1.
-    shine: the share of the gloss that it has, 0 to 1.
-    """
-
-    height: Array
-    tone: Array
-    shine: Array
-
-
 @dataclass(frozen=True)
 class Finish:
-    """The look of a fabric. surface: draws it. All else: see `SurfaceDetail`."""
+    """The look of a fabric.
+
+    surface: draws its tile. sides, ends: draw the strips along its upright and its level edges; see
+    `edges`. All else: see `SurfaceDetail`.
+    """
 
     surface: Callable[[], Surface]
+    sides: Callable[[], Surface]
+    ends: Callable[[], Surface]
     gloss: float = 0.0
     across: float = 0.0
     along: float = 0.0
@@ -72,7 +75,7 @@ def plain_weave(width: int, depth: float, uneven: float, slub: float, seed: int)
     upright = (column + row) % 2 == 0
     across, along = np.where(upright, (x, y), (y, x)) % width
     bulge = _bulge(across, width) * (0.55 + 0.45 * _bulge(along, width))
-    own = _noise((2, SIDE // width), seed)
+    own = noise((2, SIDE // width), seed)
     thread = np.where(upright, own[0][column], own[1][row]) - 0.5
     warp, weft = _streaks(width, seed + 1), _streaks(width, seed + 2).T
     swollen = np.where(upright, warp, weft) - 0.5
@@ -100,22 +103,46 @@ def matted() -> Surface:
 def grain() -> Surface:
     """Leather: pebbles of uneven size between creases, and patches that are worn smooth."""
     patches = _clouds(64, 33)
-    pebble = _smoothstep(_cells(8, 31) / 4)
-    small = _smoothstep(_cells(4, 32) / 2)
+    pebble = smoothstep(_cells(8, 31) / 4)
+    small = smoothstep(_cells(4, 32) / 2)
     height = 1.3 * pebble + 0.4 * small
     tone = 0.20 * (pebble - 0.7) + 0.04 * (small - 0.7) + 0.14 * (patches - 0.5)
     return Surface(height, tone, (0.25 + 0.75 * pebble) * (0.5 + 0.5 * patches))
 
 
+def both(draw: Callable[[], Surface]) -> tuple[Callable[[], Surface], Callable[[], Surface]]:
+    """The same strip for upright and level edges."""
+    return draw, draw
+
+
 FINISHES: Mapping[str, Finish] = MappingProxyType(
     {
-        "wool": Finish(twill, fuzz=0.3),
-        "cotton": Finish(lambda: plain_weave(4, 0.20, 0.07, 0.2, 41)),
-        "linen": Finish(lambda: plain_weave(4, 0.26, 0.22, 1.2, 51), gloss=0.10, sharpness=2),
-        "silk": Finish(satin, gloss=0.55, across=0.7, sharpness=5),
-        "canvas": Finish(lambda: plain_weave(8, 0.34, 0.08, 0.3, 61)),
-        "leather": Finish(grain, gloss=0.55, sharpness=4),
-        "felt": Finish(matted, fuzz=0.7),
+        "wool": Finish(twill, *both(lambda: blanket_stitch(13, 16)), fuzz=0.3),
+        "cotton": Finish(
+            lambda: plain_weave(4, 0.20, 0.07, 0.2, 41),
+            *both(lambda: hem(14, (10.5,), 6, 2, 1.4, depth=1.8)),
+        ),
+        "linen": Finish(
+            lambda: plain_weave(4, 0.26, 0.22, 1.2, 51),
+            lambda: selvage(10, 3, 8, 52),
+            lambda: drawn_thread(16, 7, 8),
+            gloss=0.10,
+            sharpness=2,
+        ),
+        "silk": Finish(
+            satin,
+            lambda: selvage(8, 2, 4, 13),
+            lambda: rolled(7, 8),
+            gloss=0.55,
+            across=0.7,
+            sharpness=5,
+        ),
+        "canvas": Finish(
+            lambda: plain_weave(8, 0.34, 0.08, 0.3, 61),
+            *both(lambda: hem(24, (5.0, 18.0), 12, 4, 2.0, depth=3.0)),
+        ),
+        "leather": Finish(grain, *both(lambda: pared(34)), gloss=0.55, sharpness=4),
+        "felt": Finish(matted, *both(lambda: cut(24)), fuzz=0.7),
     }
 )
 """By the names of fabrics; see `drapery.cloth.FABRICS`."""
@@ -137,34 +164,43 @@ def finished(
     """
 
     def make() -> Material:
-        detail = _detail(FINISHES[fabric], _tile(fabric), mapping, size)
+        detail = _detail(fabric, mapping, size)
         return replace(material, detail=detail, transmission=transmission)
 
     return _finished.get((material,), (fabric, transmission, mapping, size), make)
 
 
-def _detail(
-    look: Finish, tile: Texels, mapping: UVMapping, size: tuple[float, float]
-) -> SurfaceDetail:
-    corners = mapping.front(np.array([[0.0, 0.0], [1.0, 1.0]]))
-    across, down = np.abs(corners[1] - corners[0]) * SIDE / PITCH
-    repeats = float(size[0] / across), float(size[1] / down)
-    lobes = look.gloss, look.across, look.along, look.sharpness, look.fuzz
-    return SurfaceDetail(tile, repeats, *lobes)
+def _detail(fabric: str, mapping: UVMapping, size: tuple[float, float]) -> SurfaceDetail:
+    look, ends = FINISHES[fabric], np.array([[0.0, 0.0], [1.0, 1.0]])
+    front, back = mapping.front(ends), mapping.back(ends)
+    across, down = np.abs(front[1] - front[0]) * SIDE / PITCH
+    tile, strips = _texels(fabric)
+    return SurfaceDetail(
+        tile,
+        (float(size[0] / across), float(size[1] / down)),
+        gloss=look.gloss,
+        across=look.across,
+        along=look.along,
+        sharpness=look.sharpness,
+        fuzz=look.fuzz,
+        strips=strips,
+        edges=(_rect(front), _rect(back)),
+    )
+
+
+def _rect(ends: Array) -> Rect:
+    left, top, right, bottom = map(float, (*ends.min(axis=0), *ends.max(axis=0)))
+    return left, top, right, bottom
 
 
 @cache
-def _tile(name: str) -> Texels:
-    """The tile of a fabric, see `SurfaceDetail`."""
-    drawn = FINISHES[name].surface()
-    slopes = [
-        (np.roll(drawn.height, 1, axis) - np.roll(drawn.height, -1, axis)) / 2 for axis in (1, 0)
-    ]
-    tone = drawn.tone - drawn.tone.mean()
-    signed = [128 + 128 * part for part in (*slopes, tone)]
-    numbers = np.stack([*signed, 255 * drawn.shine], axis=-1)
-    tile: Texels = np.clip(np.rint(numbers), 0, 255).astype(np.uint8)
-    return tile
+def _texels(name: str) -> tuple[Texels, Texels]:
+    """The tile of a fabric and its strips, see `SurfaceDetail`."""
+    look = FINISHES[name]
+    drawn = look.surface()
+    level = replace(drawn, tone=drawn.tone - drawn.tone.mean())
+    strips = [draw().texels(wraps=False) for draw in (look.sides, look.ends)]
+    return level.texels(), np.stack(strips)
 
 
 def _places() -> Any:
@@ -178,25 +214,15 @@ def _bulge(place: Array, width: int) -> Array:
     return bulge
 
 
-def _smoothstep(part: Array) -> Array:
-    part = np.clip(part, 0, 1)
-    smooth: Array = part * part * (3 - 2 * part)
-    return smooth
-
-
-def _noise(shape: tuple[int, ...], seed: int) -> Array:
-    return np.random.default_rng(seed).random(shape)
-
-
 def _clouds(cell: int, seed: int) -> Array:
     """Noise 0..1 that changes over `cell` texels and repeats after SIDE."""
     count = max(1, SIDE // cell)
-    return _lattice(_noise((count, count), seed))
+    return _lattice(noise((count, count), seed))
 
 
 def _streaks(width: int, seed: int) -> Array:
     """Noise 0..1 in upright stripes of a width, that changes slowly along them."""
-    stripes = _noise((SIDE // 32, SIDE // width), seed)
+    stripes = noise((SIDE // 32, SIDE // width), seed)
     along = _lattice(stripes, columns=False)
     return along[:, np.arange(SIDE) // width]
 
@@ -211,7 +237,7 @@ def _blended(corners: Array) -> Array:
     at = np.arange(SIDE) * (len(corners) / SIDE)
     low = at.astype(int)
     part = at - low
-    share = _smoothstep(part)[:, None]
+    share = smoothstep(part)[:, None]
     blend: Array = (1 - share) * corners[low] + share * corners[(low + 1) % len(corners)]
     return blend
 
@@ -220,8 +246,10 @@ def _strands(length: int, seed: int) -> Array:
     """Noise 0..1 of short fibres in eight directions."""
     total = np.zeros((SIDE, SIDE))
     for number, (down, right) in enumerate(_DIRECTIONS):
-        noise = _noise((SIDE, SIDE), seed + number)
-        fibres = sum(np.roll(noise, (k * down // 2, k * right // 2), (0, 1)) for k in range(length))
+        grains = noise((SIDE, SIDE), seed + number)
+        fibres = sum(
+            np.roll(grains, (k * down // 2, k * right // 2), (0, 1)) for k in range(length)
+        )
         # Of the same spread for every length: the sum of random numbers grows as its root.
         total = np.maximum(total, 0.5 + (fibres / length - 0.5) * np.sqrt(length))
     return np.clip((total - 0.55) / 0.9, 0, 1)
@@ -235,7 +263,7 @@ def _cells(size: int, seed: int) -> Array:
     """
     count = SIDE // size
     side = SIDE / count
-    points = _noise((2, count, count), seed) * 0.8 + 0.1
+    points = noise((2, count, count), seed) * 0.8 + 0.1
     y, x = _places()
     row, column = (y / side).astype(int), (x / side).astype(int)
     first = np.full((SIDE, SIDE), np.inf)

@@ -497,7 +497,7 @@ def _draw(
         np.rint(np.array(scene.light.tint) * FULL_LIGHT).astype(np.int64),
         raster.receivers,
         _kernel_shadows(raster, shadows),
-        (raster.leaning, details.rows, details.tiles),
+        (raster.leaning, details.rows, details.tiles, details.edges),
         _background(scene),
         grid,
         scene.size,

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from drapery.jit import entry_point, kernel
+from drapery.render.detail import EDGE_LONG, EDGE_WIDE
 from drapery.render.soft.bins import STRIDE, TILE
 from drapery.render.soft.blending import FULL_LIGHT, LIGHT_BITS, OPAQUE_BITS
 
@@ -27,6 +28,10 @@ GLOSS_BITS = 16
 SHARP = 3.0
 """Twice the texels of a tile in a sample from which on its next copy is mixed in, where the mean of
 several samples is drawn."""
+WIDE_BITS, LONG_BITS = EDGE_WIDE.bit_length() - 1, EDGE_LONG.bit_length() - 1
+"""The sides of a strip are these powers of two."""
+STRIP = sum(EDGE_WIDE * EDGE_LONG >> 2 * k for k in range(WIDE_BITS + 1)) + EDGE_LONG // EDGE_WIDE
+"""Texels of a strip with its copies."""
 SHOWN = (1 << GLOSS_BITS) / (255.0 * FULL_LIGHT)
 """Gloss in units of 1 / (1 << GLOSS_BITS), for a share of 255 in full light."""
 
@@ -153,14 +158,18 @@ def add_detail(
     1 / (1 << GLOSS_BITS).
     """
     vertices, triangles, triangle_material = mesh
-    leaning, rows, tiles = details
+    leaning, rows, tiles, edges = details
     a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
     row = rows[triangle_material[t]]
     start, bits, across, down = np.int64(row[0]), np.int64(row[1]), row[2], row[3]
     if setup.level < 0:
         found = _level(vertices[a], vertices[b], vertices[c], across, down, bits, grid)
         setup.level, setup.mix = found
-    level, mix = setup.level, setup.mix
+        setup.edge = -1
+        if row[4] >= 0:
+            bounds, scale = edges[triangle_material[t]], (across * 256.0, down * 256.0)
+            setup.edge = _part_with_edge(vertices[a], vertices[b], vertices[c], bounds, scale)
+    level, mix, edge = setup.level, setup.mix, setup.edge
     for k in range(level):
         start += 1 << (2 * (bits - k))
     finer = max(bits - level, 0)
@@ -181,13 +190,20 @@ def add_detail(
         if k == 0 or (first + k) & (grid - 1) == 0:
             at = np.float64(k)
             w = 1.0 / (w0 + at * dw)
-            x = np.int64((u0 + at * du) * w * across) >> level
-            y = np.int64((v0 + at * dv) * w * down) >> level
-            texel = _smooth(tiles, start, finer, x, y)
+            over, under = np.int64((u0 + at * du) * w * across), np.int64((v0 + at * dv) * w * down)
+            x, y = over >> level, under >> level
+            texel = _smooth(tiles, start, finer, finer, x, y)
             if mix > 0:
-                texel = _between(texel, _smooth(tiles, after, coarser, x >> 1, y >> 1), mix)
+                next_texel = _smooth(tiles, after, coarser, coarser, x >> 1, y >> 1)
+                texel = _between(texel, next_texel, mix)
             right, low = (texel & 255) - 128, ((texel >> 16) & 255) - 128
             tone, gloss = ((texel >> 32) & 255) - 128, (texel >> 48) & 255
+            if edge >= 0:
+                strips, bounds = np.int64(row[4]), edges[triangle_material[t], edge]
+                found = _beside_edge(tiles, strips, bounds, level, mix, over, under)
+                own = found[3]
+                right, low = (right * own >> 8) + found[0], (low * own >> 8) + found[1]
+                tone, gloss = (tone * own >> 8) + found[2], 255 - ((255 - gloss) * own >> 8)
             sloped = ((r0 + at * dr) * right + (s0 + at * ds) * low) * w
             factor = 1.0 + (sloped + tone) * (1.0 / 128.0) + (f0 + at * df) * w
             shown = (g0 + at * dg) * w * gloss * SHOWN
@@ -220,13 +236,79 @@ def _level(a: Any, b: Any, c: Any, across: Any, down: Any, bits: Any, grid: Any)
 
 
 @kernel
-def _smooth(tiles: Any, start: Any, bits: Any, x: Any, y: Any) -> Any:
-    """The four numbers of a tile at a place [1/256 texel], between its texels."""
-    mask = (1 << bits) - 1
+def _part_with_edge(a: Any, b: Any, c: Any, bounds: Any, scale: Any) -> Any:
+    """The part of the texture on which a triangle comes near to an edge, or -1.
+
+    bounds: see `DetailTables`, of one material. scale: 1/256 texels of the tile for a whole u, v.
+    """
+    part, most, near = 0, np.int64(0), False
+    for number in range(2):
+        one = _inset(a, bounds[number], scale)
+        two, three = _inset(b, bounds[number], scale), _inset(c, bounds[number], scale)
+        if number == 0 or one + two + three > most:
+            part, most = number, one + two + three
+            # Distances from straight edges are least at a corner of the triangle.
+            near = min(one, two, three) < EDGE_WIDE << 8
+    return part if near else -1
+
+
+@kernel
+def _inset(corner: Any, bounds: Any, scale: Any) -> Any:
+    """How far a corner lies inside of a part of the texture."""
+    x, y = np.int64(corner.u * scale[0]), np.int64(corner.v * scale[1])
+    return min(min(x - bounds[0], bounds[2] - x), min(y - bounds[1], bounds[3] - y))
+
+
+@kernel
+def _beside_edge(tiles: Any, strips: Any, bounds: Any, level: Any, mix: Any, x: Any, y: Any) -> Any:
+    """What the strip of the nearest edge adds at a place [1/256 texel of the tile].
+
+    strips: their first texel. bounds: of the part of the texture. level, mix: see `_level`.
+    Returns slopes to the right and down, tone, and the share of the tile that shows [1/256].
+    """
+    left, right = x - bounds[0], bounds[2] - x
+    top, bottom = y - bounds[1], bounds[3] - y
+    beside, above = min(left, right), min(top, bottom)
+    upright = beside <= above
+    away, along = max(min(beside, above), 0), y if upright else x
+    if away >= EDGE_WIDE << 8:
+        return np.int64(0), np.int64(0), np.int64(0), np.int64(256)
+    first = strips if upright else strips + STRIP
+    texel = _of_strip(tiles, first, level, away, along)
+    if mix > 0:
+        texel = _between(texel, _of_strip(tiles, first, level + 1, away, along), mix)
+    inwards, onwards = (texel & 255) - 128, ((texel >> 16) & 255) - 128
+    tone, own = ((texel >> 32) & 255) - 128, (texel >> 48) & 255
+    own += own >> 7
+    if upright:
+        return inwards if left <= right else -inwards, onwards, tone, own
+    return onwards, inwards if top <= bottom else -inwards, tone, own
+
+
+@kernel
+def _of_strip(tiles: Any, first: Any, level: Any, away: Any, along: Any) -> Any:
+    """The four numbers of a copy of a strip, between its texels; see `_beside_edge`."""
+    level = min(level, WIDE_BITS)
+    wide, long = WIDE_BITS - level, LONG_BITS - level
+    # All copies before: a geometric series.
+    whole = WIDE_BITS + LONG_BITS + 2
+    start = first + ((1 << whole) - (1 << (whole - 2 * level))) // 3
+    # Not beyond the middle of the first and last column, since a strip repeats only along the edge.
+    x = max(min(away >> level, (1 << (wide + 8)) - 129), 128)
+    return _smooth(tiles, start, wide, long, x, along >> level)
+
+
+@kernel
+def _smooth(tiles: Any, start: Any, wide: Any, high: Any, x: Any, y: Any) -> Any:
+    """The four numbers of a tile at a place [1/256 texel], between its texels.
+
+    wide, high: its sides are these powers of two.
+    """
+    mask, rows = (1 << wide) - 1, (1 << high) - 1
     x, y = x - 128, y - 128
-    i, j = x >> 8, (y >> 8) & mask
+    i, j = x >> 8, (y >> 8) & rows
     left, right = i & mask, (i + 1) & mask
-    upper, lower = start + (j << bits), start + (((j + 1) & mask) << bits)
+    upper, lower = start + (j << wide), start + (((j + 1) & rows) << wide)
     top = _between(tiles[np.uint64(upper + left)], tiles[np.uint64(upper + right)], x & 255)
     below = _between(tiles[np.uint64(lower + left)], tiles[np.uint64(lower + right)], x & 255)
     return _between(top, below, y & 255)

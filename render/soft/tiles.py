@@ -261,8 +261,8 @@ def draw_tiles(
         in shadow; shape [V, 4], float32, or empty for a light that casts no shadows.
     shadows: which triangles may lie in shadow, shape [T]; and the map's depths, its side and the
         distance of the places compared; see `ShadowMap`.
-    details: how vertices lean, see `lean_vertices`, empty where no material has a detail; the rows
-        and tiles of materials, see `MaterialTables`.
+    details: how vertices lean, see `lean_vertices`, empty where no material has a detail; the rows,
+        tiles and edges of materials, see `DetailTables`.
     background: one uint32, 0xAABBGGRR, as all colours here.
     grid: samples along a pixel's side.
     size: of the picture [pixels]; picture: shape [H * W], uint32, filled with the background.

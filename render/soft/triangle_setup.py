@@ -10,7 +10,7 @@ from drapery.render.soft.blending import FULL_LIGHT
 SLOTS = 256
 """Triangles whose setup is kept, a power of two: most are met again in the next row of the tile."""
 
-_INTEGERS = "triangle origin a0 ax ay b0 bx by c0 cx cy level mix"
+_INTEGERS = "triangle origin a0 ax ay b0 bx by c0 cx cy level mix edge"
 _FLOATS = (
     "inv_wa inv_wb inv_wc ua ub uc va vb vc sa sb sc da db dc dw du dv ds"
     " across i_low i_high down j_low j_high"
@@ -32,7 +32,8 @@ a0, ax, ay: the edge function opposite corner a at the picture's first sample, a
 inv_wa, ua, va, sa: 1 / w, u, v and brightness of corner a. da: step to the right of the edge
     function over w. dw, du, dv, ds: of 1 / w, and of u, v and light over w.
 across, down: texels of the lowest layer; i_low, i_high, j_low, j_high: those that may be seen.
-level, mix: of the detail, -1 where they are not known yet; see `add_detail`.
+level, mix: of the detail, -1 where they are not known yet; see `add_detail`. edge: the part of the
+    texture at whose edge it lies, -1 for none.
 is_plain: whether that layer is the only one and has no tint.
 """
 

@@ -86,6 +86,74 @@ def test_the_ribs_of_the_default_fabric_are_quieter_than_the_weave_of_coarse_one
 
 
 @pytest.mark.parametrize("name", FINISHES)
+def test_an_edge_is_two_texels_of_a_flag_wide_and_like_no_other(name: str) -> None:
+    """The sheet of 1 m fills 512 pixels: the edge is 43 of them wide."""
+    changed = {each: np.abs(edge_of(each, 512)) for each in FINISHES}
+    assert changed[name][60:-60, 60:-60].max() == 0
+    for band in (changed[name][:28], changed[name][-28:], changed[name][:, :28]):
+        assert band.mean() > 1
+    for other in set(FINISHES) - {name}:
+        assert np.abs(changed[name] - changed[other])[:28].mean() > 1
+
+
+def edge_of(name: str, side: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """What the strips of a finish add [levels]."""
+    camera = Camera((0.0, 0.0, 2.0), (0.0, 0.0, 0.0), height=1.0)
+    scene = replace(sheet(name, side), camera=camera)
+    (model,) = scene.models
+    (material,) = model.materials
+    assert material.detail is not None
+    bare = replace(material, detail=replace(material.detail, strips=None))
+    return brightness(scene) - brightness(replace(scene, models=(Model(model.mesh, (bare,)),)))
+
+
+def edged(edges: tuple[tuple[float, float, float, float], ...], right: int) -> Scene:
+    """The sheet in a light from the right; the strips of its upright sides lean inwards."""
+    strips = np.full((2, 256, 32, 4), (128, 128, 128, 255), np.uint8)
+    strips[0, :, :, 0] = right
+    tile = np.full((4, 4, 4), (128, 128, 128, 255), np.uint8)
+    detail = SurfaceDetail(tile, (96.0, 96.0), strips=strips, edges=edges)
+    material = Material((TextureLayer(GREY),), detail=detail)
+    flat = replace(wavy(), positions=wavy().positions * [1.0, 1.0, 0.0])
+    flat = replace(make_mesh(flat.positions, flat.triangles), uvs=flat.uvs)
+    camera, light = (
+        Camera((0.0, 0.0, 2.0), (0.0, 0.0, 0.0), height=1.0),
+        Light(((1, 0, 1),), 0.3, 0.6),
+    )
+    return Scene((Model(flat, (material,)),), camera, (96, 96), light)
+
+
+def test_slopes_of_a_strip_lean_inwards_on_both_sides() -> None:
+    row = brightness(edged(((0.0, 0.0, 1.0, 1.0),), 160))[48]
+    assert row[4] > row[48] + 5 and row[-5] < row[48] - 5
+    assert np.ptp(row[16:-16]) == 0
+
+
+def test_each_part_of_a_texture_has_edges_of_its_own() -> None:
+    row = brightness(edged(((0.0, 0.0, 0.5, 1.0), (0.5, 0.0, 1.0, 1.0)), 160))[48]
+    assert row[44] < row[24] - 5 and row[52] > row[72] + 5
+    assert row[4] > row[24] + 5 and row[-5] < row[72] - 5
+
+
+@pytest.mark.parametrize(
+    ("strips", "edges", "words"),
+    [
+        (np.zeros((2, 256, 16, 4), np.uint8), 1, "the strips of a detail have shape"),
+        (np.zeros((2, 256, 32, 4)), 1, "type float64"),
+        (np.zeros((2, 256, 32, 4), np.uint8), 0, "has 0 edges; use one or two"),
+    ],
+)
+def test_strips_that_cannot_be_laid_are_refused(strips: Any, edges: int, words: str) -> None:
+    scene = edged(((0.0, 0.0, 1.0, 1.0),) * edges, 128)
+    (model,) = scene.models
+    (material,) = model.materials
+    assert material.detail is not None
+    wrong = replace(material, detail=replace(material.detail, strips=strips))
+    with pytest.raises(OptionError, match=words):
+        draw_scene(replace(scene, models=(Model(model.mesh, (wrong,)),)))
+
+
+@pytest.mark.parametrize("name", FINISHES)
 def test_a_weave_fades_where_it_is_finer_than_a_pixel(name: str) -> None:
     fine, coarse = (texture_of(name, side).std() for side in (512, 48))
     assert coarse < 0.5 * fine or coarse < 2.5
