@@ -29,7 +29,7 @@ def show_notice(line: str, tone: Tone = "done") -> None:
     ui.notify(
         translated(line),
         type=kind,
-        position="bottom",
+        position="top",
         timeout=timeout,
         attrs={"role": "status" if tone == "done" else "alert"},
         classes="notice",

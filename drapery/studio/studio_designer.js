@@ -71,8 +71,8 @@ export class StudioDesigner {
     this.strip = make("div", { class: "steps-strip", role: "group", "aria-label": say("history") });
     const fresh = iconButton("plus", say("new"), () => this.act("new"));
     const placed = {
-      tools: [this.title, parts.undo, parts.redo, fresh, parts.random, parts.clear, parts.kind],
-      dyes: parts.dyes, layers: [...parts.layers, parts.status], patterns: parts.patterns ?? [],
+      tools: [parts.undo, parts.redo, fresh, parts.random, parts.clear, parts.kind],
+      dyes: parts.dyes, layers: [this.title, ...parts.layers, parts.status], patterns: parts.patterns ?? [],
       face: [parts.flat], other: [this.other], steps: [this.strip],
     };
     for (const [name, nodes] of Object.entries(placed)) document.querySelector(`[data-part="${name}"]`)?.replaceChildren(...nodes);

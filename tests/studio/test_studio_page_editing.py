@@ -4,7 +4,17 @@ from typing import Any
 
 import pytest
 from selenium.webdriver import Keys
-from studio_browser import WIDE, Studio, console_errors, open_page, resize, wait_until
+from studio_browser import (
+    PHONE,
+    WIDE,
+    Studio,
+    console_errors,
+    notices,
+    open_page,
+    paste,
+    resize,
+    wait_until,
+)
 
 from drapery.banner import PATTERN_NAMES
 from drapery.banner.design import Banner
@@ -227,6 +237,50 @@ def test_all_patterns_are_on_one_screen_over_the_present_design(
     assert len(bottoms) == len(PATTERN_NAMES)
     assert max(bottoms) <= 900
     assert chromium.execute_script(BROKEN) == []
+    resize(chromium, WIDE)
+
+
+def test_a_phone_has_one_row_of_header_and_the_dyes_in_reach(chromium: Any, studio: Studio) -> None:
+    resize(chromium, PHONE)
+    open_page(chromium, studio, "?design=white+creeper:lime")
+    rows = """
+      const buttons = [...document.querySelectorAll(".bar button")];
+      const boxes = buttons.map((each) => each.getBoundingClientRect());
+      const middles = boxes.filter(({ height }) => height).map(({ top, bottom }) => top + bottom);
+      return Math.max(...middles) - Math.min(...middles);
+    """
+    assert chromium.execute_script(rows) <= 4
+    reach = "return document.querySelector('.dye-grid').getBoundingClientRect().bottom"
+    for top in (0, 400):
+        chromium.execute_script("window.scrollTo(0, arguments[0])", top)
+        assert chromium.execute_script(reach) <= PHONE[1]
+    resize(chromium, WIDE)
+
+
+COVERED = """
+const box = (each) => each.getBoundingClientRect();
+const shown = [...document.querySelectorAll(".q-notification")];
+const list = box(shown[0].parentElement);
+const panels = ".bar, .tabs, .live-bar, .left > *, .under, .side > *";
+return [...document.querySelectorAll(panels)].filter((each) => {
+  const { top, bottom, left, right, height } = box(each);
+  const across = shown.map(box).filter((line) => line.left < right && line.right > left);
+  const low = (line) => Math.min(line.bottom, list.bottom);
+  return height && across.some((line) => line.top < bottom && low(line) > top);
+}).map((each) => each.className);
+"""
+
+
+@pytest.mark.parametrize("size", [PHONE, (1000, 700), (1440, 900)])
+def test_three_messages_cover_no_panel(
+    chromium: Any, studio: Studio, size: tuple[int, int]
+) -> None:
+    resize(chromium, size)
+    open_page(chromium, studio)
+    for text in ("/give @p stone", "no banner", "white creeper"):
+        paste(chromium, text)
+    wait_until(lambda: len(notices(chromium)) == 3)
+    wait_until(lambda: not chromium.execute_script(COVERED))  # once they have slid in
     resize(chromium, WIDE)
 
 
