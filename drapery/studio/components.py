@@ -2,16 +2,18 @@
 
 import hashlib
 import math
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
-from nicegui import ui
+from nicegui import core, ui
 from nicegui.element import Element
 
 from drapery.banner import game_titles
 from drapery.studio.art import face_files
+from drapery.studio.document import Event
 from drapery.studio.session import Session
+from drapery.studio.share import motion_of
 from drapery.studio.sketch import edited_sketch, editor_tree
 from drapery.studio.translation import translated
 from drapery.studio.widgets import on, set_props
@@ -41,13 +43,40 @@ class DesignerElement(Element, component="designer.js"):
         self.props["module"] = viewer_address()
         self.props["given"] = {
             "design": editor_tree(session.sketch),
+            "motion": motion_of(session.settings),
             "language": _editor_language(session.language),
             "words": search_words(),
             "token": session.token,
         }
         session.follow(lambda: set_props(self, {"faces": face_files(session)}), "packs")
-        session.listen(lambda: self.run_method("lay", editor_tree(session.sketch)), "laid")
-        on(self, "design", lambda tree: session.take(edited_sketch(tree)))
+        self._session, self._due, self._answers = session, set[str](), False
+        events: tuple[Event, ...] = "laid", "settings"
+        for event in events:
+            session.listen(partial(self._tell_soon, event), event)
+        on(self, "design", self._take)
+
+    def _take(self, tree: Any) -> None:
+        """Take an edit. What else it changes belongs to its own step of the history."""
+        self._answers = True
+        try:
+            self._session.take(edited_sketch(tree))
+            if tree.get("motion") is not None:
+                self._session.move(tree["motion"])
+        finally:
+            self._answers = False
+
+    def _tell_soon(self, event: Event) -> None:
+        """Tell the editor once of all that changes together, which is one step of its history."""
+        if not self._due and core.loop is not None:
+            core.loop.call_soon_threadsafe(self._tell)
+        self._due.add("answer" if self._answers else event)
+
+    def _tell(self) -> None:
+        due, self._due = self._due, set()
+        session = self._session
+        if not session.closed:
+            design = editor_tree(session.sketch) if "laid" in due else None
+            self.run_method("lay", design, motion_of(session.settings), due == {"answer"})
 
 
 EDITOR_TEXTS = {

@@ -16,8 +16,8 @@ export default {
       const { StudioDesigner } = await import(new URL(this.module, location.href));
       return new StudioDesigner(this.given, this.faces, (design) => this.$emit("design", design));
     },
-    async lay(design) {
-      (await this.designer).lay(design);
+    async lay(...given) {
+      (await this.designer).lay(...given);
     },
   },
 };

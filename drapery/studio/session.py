@@ -12,7 +12,7 @@ from drapery.studio.exports import Exports, ExportSlots
 from drapery.studio.garment_store import GarmentStore
 from drapery.studio.kept_work import KeptWork, Work
 from drapery.studio.pack_store import PackStore
-from drapery.studio.share import SHARED, read_link, with_shared
+from drapery.studio.share import MOVED, SHARED, read_link, settings_of, with_shared
 from drapery.studio.sketch import MAX_ORIGIN, Sketch
 from drapery.studio.upload_queue import UploadQueue
 from drapery.studio.uploads import Uploads
@@ -102,6 +102,14 @@ class Session(Document):
         chosen = with_shared(self.settings, settings)
         self.adjust(**{name: chosen.as_given(name) for name in SHARED})
         self.lay_out(sketch)
+
+    def move(self, words: object) -> None:
+        """Take the options of a step of the page's history, as `motion_of` has them.
+
+        Raises DesignError for any other options.
+        """
+        chosen = with_shared(self.settings, settings_of(words))
+        self.adjust(**{name: chosen.as_given(name) for name in MOVED})
 
     def lay_out(self, sketch: Sketch, *, same: bool = False) -> None:
         """Replace the design; this can be undone.

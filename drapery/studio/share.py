@@ -28,6 +28,8 @@ MAX_STYLES = 16
 """The most styles in a link."""
 SHARED = applicable(output="link")
 """The options of a link: none names or needs a file, or depends on installed software."""
+MOVED = tuple(name for name in SHARED if name not in ("format", "time"))
+"""The options of a link that the page's editor can undo."""
 
 _REMEDY = "copy the whole link again"
 
@@ -91,6 +93,14 @@ def options_of(settings: Settings) -> dict[str, Any]:
         for name, value in chosen.items()
         if value != NAMED_OPTIONS[name].default
     }
+
+
+def motion_of(settings: Settings) -> dict[str, Any]:
+    """What the page's editor keeps beside each design, so that it can be undone: as `options_of`.
+
+    Without what follows from packs, or from a pause.
+    """
+    return {name: value for name, value in options_of(settings).items() if name in MOVED}
 
 
 def of_tree(tree: object) -> tuple[Sketch, Settings]:

@@ -17,14 +17,15 @@ const OTHER_KIND = { banner: "shield", shield: "banner" };
 const designOf = ({ base, kind, layers, title, origin }) => ({ base, kind, layers, title, origin });
 
 export class StudioDesigner {
-  // given: design, as `sketch.editor_tree` has it; language and words, as an Editor has them; token of the
-  // session. faces: the addresses of the files of faces by their kind. tell: takes each design for the server.
-  constructor({ design, language, words, token }, faces, tell) {
-    Object.assign(this, { token, tell, buttons: new Map() });
+  // given: design, as `sketch.editor_tree` has it; motion: the options of the picture, as links have them;
+  // language and words, as an Editor has them; token of the session. faces: the addresses of the files of faces by
+  // their kind. tell: takes each design for the server, and the options that an undone step had.
+  constructor({ design, motion, language, words, token }, faces, tell) {
+    Object.assign(this, { token, tell, buttons: new Map(), heard: JSON.stringify(motion) });
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(`.editor { ${STYLES.editor} }`);
     document.adoptedStyleSheets.push(sheet);
-    this.editor = new Editor(this.opened(workOf(design)), {
+    this.editor = new Editor(this.opened(workOf(design, {}, motion)), {
       openFaces: async (kind) => Faces.read(await (await fetch(this.faces[kind])).arrayBuffer()),
       begin: (work) => ({ title: "", origin: Math.floor(Math.random() * MAX_ORIGIN), ...work }),
       show: () => this.show(),
@@ -39,9 +40,9 @@ export class StudioDesigner {
   // history; a work that is not in it, of an address, becomes its last step.
   opened(work) {
     const { token, history } = kept(() => JSON.parse(sessionStorage.getItem(KEPT))) ?? {};
-    const before = token === window.studio.earlier && History.read(history);
+    const before = token === window.studio.earlier && History.read(history, () => true); // the server knows options
     if (!before) return new History(work);
-    const plain = (each) => JSON.stringify({ ...designOf(workOf(each)), origin: 0 });
+    const plain = (each) => JSON.stringify({ ...designOf(each), layers: workOf(each).layers, origin: 0, motion: each.motion });
     if (![before.work, ...before.past, ...before.future].map(plain).includes(plain(work))) before.change(work);
     return before;
   }
@@ -78,18 +79,25 @@ export class StudioDesigner {
     for (const [name, nodes] of Object.entries(placed)) document.querySelector(`[data-part="${name}"]`)?.replaceChildren(...nodes);
   }
 
-  // What an address, a library or a text holds becomes the design.
-  lay(design) {
-    const before = this.editor.work;
-    this.editor.begin(workOf(design));
-    if (this.editor.work === before) this.announce(); // the server may have heard of another one since
+  // Take what an address, a library or a text holds, or null, and the options of the picture; both can be undone.
+  // isAnswer: whether the options follow from the present step.
+  lay(design, motion, isAnswer) {
+    const { history, work } = this.editor;
+    this.heard = JSON.stringify(motion);
+    const names = Object.keys({ ...work.motion, ...motion }).filter((name) => String(work.motion[name]) !== String(motion[name]));
+    if (isAnswer) history.work = { ...work, motion };
+    else if (design) this.editor.begin(workOf(design, {}, motion));
+    else this.editor.change({ ...work, motion }, `motion ${names}`);
+    if (isAnswer || this.editor.work === work) this.announce(); // the server may have heard of another one since
   }
 
   announce() {
     const { work, history } = this.editor;
     kept(() => sessionStorage.setItem(KEPT, JSON.stringify({ token: this.token, history: history.write() })));
     document.dispatchEvent(new CustomEvent("drapery-change", { detail: { text: writeShorthand(shownOf(work)) } }));
-    this.tell(designOf(work));
+    const motion = JSON.stringify(work.motion);
+    this.tell({ ...designOf(work), motion: motion === this.heard ? null : work.motion });
+    this.heard = motion;
   }
 
   // Do what a key or a button of the page stands for.
@@ -99,7 +107,7 @@ export class StudioDesigner {
     const doing = {
       undo: () => editor.go("undo"),
       redo: () => editor.go("redo"),
-      new: () => editor.begin(workOf({ base: "white", kind: work.kind, layers: [] }), "field"),
+      new: () => editor.begin(workOf({ base: "white", kind: work.kind, layers: [] }, {}, work.motion), "field"),
       random: () => editor.random(),
       kind: () => editor.setKind(OTHER_KIND[work.kind]),
       none: () => acts.select(null),
@@ -126,8 +134,11 @@ export class StudioDesigner {
   // replaced is lost.
   showSteps() {
     const { past, work, future } = this.editor.history;
-    const states = [...past, work, ...future.toReversed()];
-    const first = Math.max(0, Math.min(past.length - SHOWN_STEPS / 2, states.length - SHOWN_STEPS));
+    const all = [...past, work, ...future.toReversed()];
+    const texts = all.map((each) => JSON.stringify(designOf(each)));
+    const states = all.filter((_, at) => texts[at] !== texts[at - 1]); // another wind is no other picture
+    const present = states.findLastIndex((each) => all.indexOf(each) <= past.length);
+    const first = Math.max(0, Math.min(present - SHOWN_STEPS / 2, states.length - SHOWN_STEPS));
     const shown = states.length > 1 ? states.slice(first, first + SHOWN_STEPS) : [];
     this.buttons = new Map(shown.map((state) => [state, this.buttons.get(state) ?? this.step(state)]));
     const focused = document.activeElement;
@@ -135,7 +146,7 @@ export class StudioDesigner {
     if (buttons.some((each, at) => this.strip.children[at] !== each) || buttons.length !== this.strip.children.length) this.strip.replaceChildren(...buttons);
     if (this.strip.contains(focused)) focused.focus();
     buttons.forEach((each, at) => {
-      each.ariaCurrent = first + at === past.length ? "step" : "false";
+      each.ariaCurrent = first + at === present ? "step" : "false";
       each.ariaLabel = each.title = this.editor.say("step", { number: first + at + 1, design: this.described(shown[at]) });
     });
   }

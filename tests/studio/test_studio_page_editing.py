@@ -155,6 +155,34 @@ def test_sliders_have_a_role_and_a_name_where_the_focus_is(page: Any) -> None:
             assert active.accessible_name
 
 
+SHOWN = """
+const { wind, view } = document.querySelector(".viewer").viewer.state;
+return [wind, view, document.querySelectorAll(".step").length];
+"""
+
+
+def test_undo_brings_back_wind_and_view_between_edits(page: Any) -> None:
+    def stands(*wanted: object) -> None:
+        wait_until(lambda: page.execute_script(SHOWN) == [*wanted])
+
+    speed = "#panel-motion .slider"
+    set_slider = "arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('input'))"
+    for value in (6, 7, 8):  # a slider that is dragged is one step
+        page.execute_script(set_slider, find(page, speed), value)
+    stands(8, "front", 0)
+    page.find_element("xpath", "//button[.='Hero']").click()
+    stands(8, "hero", 0)
+    click(page, "[data-pattern=creeper]")
+    stands(8, "hero", 2)
+    for wanted in ((8, "hero", 2), (8, "front", 2), (4, "front", 2)):
+        click(page, "button[aria-label=Undo]")
+        stands(*wanted)
+    assert not find(page, "button[aria-label=Undo]").is_enabled()
+    for wanted in ((8, "front", 2), (8, "hero", 2)):
+        click(page, "button[aria-label=Redo]")
+        stands(*wanted)
+
+
 CUT = """
 const cut = [];
 for (const each of document.querySelectorAll(".live-bar *, #panel-motion *")) {

@@ -15,7 +15,8 @@ from drapery.banner.formats.studio_link import MAX_JSON, MAX_LINK, VERSION
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError
 from drapery.settings import OPTIONS, Settings
-from drapery.studio.share import opened_link, read_link, write_link
+from drapery.studio.session import Session
+from drapery.studio.share import motion_of, opened_link, read_link, write_link
 from drapery.studio.sketch import Sketch, Stroke
 from drapery.styles import find_style, style_names
 
@@ -242,3 +243,19 @@ def test_a_link_with_a_wrong_letter_is_refused_or_the_same(place: int, letter: s
 def test_a_hidden_layer_counts_as_one_of_sixteen() -> None:
     hidden = replace(FULL, strokes=tuple(replace(s, hidden=True) for s in FULL.strokes))
     assert [s.hidden for s in read_link(write_link(hidden, Settings()))[0].strokes] == [True] * 16
+
+
+def test_a_step_of_the_history_brings_back_the_options_that_it_had() -> None:
+    session = Session(Settings(wind=9, view="hero", style=("cel",)))
+    before = motion_of(session.settings)
+    assert before == {"view": "hero", "wind": 9.0, "style": ["cel"]}
+    session.adjust(wind=2, direction=90, time=1.5, format=46, placement="wall")
+    session.move(before)
+    assert motion_of(session.settings) == before
+    kept = session.settings.time, session.settings.format  # of a pause, and of packs
+    assert kept == (1.5, 46)
+    with pytest.raises(DesignError, match="wind"):
+        session.move({"wind": "strong"})
+    with pytest.raises(DesignError, match="backend"):
+        session.move({"backend": "metal"})
+    assert motion_of(session.settings) == before

@@ -91,9 +91,16 @@ function isWork(work) {
     work.layers.every(isLayer) &&
     Number.isInteger(work.item?.count) &&
     typeof work.item.target === "string" &&
-    Array.isArray(work.item.lore) &&
-    ["wind", "direction", "daylight"].every((name) => Number.isFinite(work.motion?.[name])) &&
-    ["placement", "fabric", "view"].every((name) => TABLES[`${name}s`].includes(work.motion[name]))
+    Array.isArray(work.item.lore)
+  );
+}
+
+/** Whether a motion from outside is one of the designer's.
+ * @param {any} motion */
+function isMotion(motion) {
+  return (
+    ["wind", "direction", "daylight"].every((name) => Number.isFinite(motion?.[name])) &&
+    ["placement", "fabric", "view"].every((name) => TABLES[`${name}s`].includes(motion[name]))
   );
 }
 
@@ -141,12 +148,12 @@ export class History {
     return JSON.stringify({ work, past, future });
   }
 
-  /** The history that `write` wrote; undefined for any other text.
-   * @param {string | null} text */
-  static read(text) {
+  /** The history that `write` wrote; undefined for any other text. knows: whether a motion can be shown.
+   * @param {string | null} text @param {(motion: any) => boolean} [knows] */
+  static read(text, knows = isMotion) {
     try {
       const { work, past, future } = JSON.parse(text ?? "");
-      if (past.length > MOST_STEPS || future.length > MOST_STEPS || ![work, ...past, ...future].every(isWork)) return undefined;
+      if (past.length > MOST_STEPS || future.length > MOST_STEPS || ![work, ...past, ...future].every((each) => isWork(each) && knows(each.motion))) return undefined;
       return Object.assign(new History(work), { past, future });
     } catch {
       return undefined;
