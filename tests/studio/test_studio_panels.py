@@ -283,13 +283,15 @@ def test_a_page_is_offered_only_where_its_module_is_built(
 def test_the_corners_of_a_flag_that_is_not_found_are_clicked(
     in_page: Callable[..., None], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    shape, corners = (1320, 200, 4), ((60, 40), (140, 40), (140, 200), (60, 200))
+    shape = 1320, 200, 4
+    corners: tuple[tuple[float, float], ...] = ((60, 40), (140, 40), (140, 200), (60, 200))
 
     def match(pixels: np.ndarray, given: object, *, packs: object) -> list[Match]:
         assert pixels.shape == shape
         if given is None:
             raise OptionError("no flag was found")
-        np.testing.assert_allclose(np.array(given), corners)
+        moved = (expected.pop(), *corners[1:]) if expected else corners
+        np.testing.assert_allclose(np.array(given), moved)
         return [Match(BANNER, 0.03)]
 
     async def data() -> AsyncIterator[bytes]:
@@ -313,7 +315,18 @@ def test_the_corners_of_a_flag_that_is_not_found_are_clicked(
         while not (found := [e for e in elements if isinstance(e, DesignButton)]):
             await asyncio.sleep(0.01)
         assert found[0].props["aria-label"] == f"sehr nah: 1: {said}"
+        marks = [e for e in elements if e.props.get("role") == "slider"]
+        assert marks[0].props["aria-label"] == "Ecke oben links"
+        emit(marks[0], "keydown", [10, 0])  # Shift and an arrow key
+        emit(marks[0], "keydown", [0, -1])
+        while marks[0].props["aria-valuetext"] != "40 % von links, 2 % von oben":
+            await asyncio.sleep(0.01)
+        expected.append((80, 40 - shape[0] / 100))
+        emit(marks[0], "keydown", [])
+        while expected:
+            await asyncio.sleep(0.01)
 
+    expected: list[tuple[float, float]] = []
     monkeypatch.setattr(picture, "match_photo", match)
     in_page(build)
 
