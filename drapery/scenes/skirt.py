@@ -1,4 +1,4 @@
-"""A skirt moved by walking legs: a thick ring with few bend points, pinned at the waist."""
+"""A skirt moved by walking legs: a ring of cloth that lies in folds, pinned at the waist."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -27,8 +27,8 @@ from drapery.style.figure import SKINS
 class SkirtParameters(SceneParameters):
     """What can be set of the scene `skirt`."""
 
-    panels: int = parameter(12, "Panels around the skirt", (4, 64))
-    rows: int = parameter(4, "Rows of bend points from waist to hem", (1, 32))
+    panels: int = parameter(24, "Panels around the skirt", (4, 64))
+    rows: int = parameter(5, "Rows of bend points from waist to hem", (1, 32))
     dye: str = parameter("red", "Dye of the outside", choices=DYE_NAMES)
     lining: str = parameter("pink", "Dye of the inside", choices=DYE_NAMES)
     trim: str = parameter("white", "Dye of the hem", choices=DYE_NAMES)

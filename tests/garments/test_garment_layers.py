@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 
 from drapery.cloth import Collisions, State, grid, rotation_about, sew
 from drapery.cloth.collisions import contact_stage
@@ -133,3 +134,17 @@ def test_garments_of_one_wearer_do_not_pass_through_each_other() -> None:
         Schedule.at(times[:2], dressed.step)
     )
     assert np.array_equal(again[1], other[:2])
+
+
+def test_the_hem_of_a_skirt_on_a_runner_lies_in_folds_and_swings() -> None:
+    """A bell without folds is as long around as the line around all of its points."""
+    player = dressed_player(make_wearer(motion="run"), wear=("skirt",))
+    dressed = Dressed(player, open_packs(()), player.settings())
+    (sheets,) = dressed.record(Schedule.at([1.0, 1.125, 1.25, 1.375], dressed.step))
+    (sewn,) = dressed.cloths
+    low = sewn.start[:, 1] < sewn.start[:, 1].min() + 1e-6
+    hems = sheets[:, low][..., [0, 2]]
+    around = [np.hypot(*(np.roll(hem, -1, axis=0) - hem).T).sum() for hem in hems]
+    outline = [ConvexHull(hem).area for hem in hems]  # of a plane figure: its perimeter
+    assert np.mean(np.array(around) / outline) > 1.05
+    assert np.ptp(hems[..., 1], axis=0).max() > 0.2

@@ -259,7 +259,7 @@ def test_a_polygon_has_a_limit_of_particles(height: float, spacing: float) -> No
 def test_a_ring_is_closed_and_an_open_one_has_two_more_edges() -> None:
     skirt = find_garment("skirt")
     (cut,) = cut_pieces(skirt)
-    assert len(cut.drawn) == len(cut.cloth.inv_mass) + 5
+    assert len(cut.drawn) == len(cut.cloth.inv_mass) + 6
     outwards = vertex_normals(cut.cloth.rest_positions, cut.cloth.triangles)
     assert ((outwards * cut.cloth.rest_positions * [1, 0, 1]).sum(axis=1) > 0).all()
     ring = RingPiece(

@@ -91,7 +91,7 @@ def test_a_skirt_stays_on_and_is_moved_by_the_legs_alone() -> None:
 
 def test_a_skirt_is_a_closed_ring_seen_from_outside() -> None:
     cloth = skirt.skirt_cloth(skirt.SkirtParameters()).cloth
-    assert len(boundary_edges(cloth.triangles)) == 2 * 12  # waist and hem
+    assert len(boundary_edges(cloth.triangles)) == 2 * 24  # waist and hem
     outwards = vertex_normals(cloth.rest_positions, cloth.triangles)
     level = cloth.rest_positions * [1, 0, 1]
     assert (np.sum(outwards * level, axis=1) > 0).all()
