@@ -33,7 +33,7 @@ from drapery.garments import PlayerSettings, find_garment, garment_names, player
 from drapery.packs import open_packs
 from drapery.player_settings import MOTIONS
 from drapery.render import contact_sheet, draw_scene
-from drapery.scenes import STEP, Dressed, LiveBody, Schedule
+from drapery.scenes import STEP, Dressed, Schedule, StagedBody
 from drapery.style import body_of
 
 Options = dict[str, Any]
@@ -169,18 +169,19 @@ def _staged(storm: Storm, settings: Settings, seconds: float) -> tuple[float, fl
     if settings.kind == "cape":
         settings = Settings(**{**settings.given_values, "texture": _cape_texture()})
     body = body_of(design, packs, settings)
-    live, stretch, depth = LiveBody(body, settings), 0.0, -np.inf
+    staged, stretch, depth = StagedBody(body, settings, curves=False), 0.0, -np.inf
+    blown = [(drape.begin(STEP), drape.forces(None)) for drape in staged.drapes]
     met = [panel.cloth.make_collisions() for panel in body.panels]
     for _ in range(round(seconds / STEP) // EVERY):
-        live.advance(EVERY)
-        for moving, collisions in zip(live.cloths, met, strict=True):
+        blown = [(moving.advance(forces, EVERY), forces) for moving, forces in blown]
+        for (moving, _), collisions in zip(blown, met, strict=True):
             positions = moving.state.positions[0].astype(float)
             stretch = max(stretch, 1 + max_stretch(positions, moving.cloth))
             solids = collisions.colliders if collisions else ()
-            depth = max(depth, _depth(positions, moving.cloth, solids, live.time))
-    cloths = [(each.cloth, each.state.positions[0].astype(float)) for each in live.cloths]
-    motions = [each.state.positions for each in live.cloths]
-    scene = next(live.scenes(motions, Schedule.at([seconds], STEP)))
+            depth = max(depth, _depth(positions, moving.cloth, solids, moving.state.time))
+    cloths = [(each.cloth, each.state.positions[0].astype(float)) for each, _ in blown]
+    motions = [each.state.positions for each, _ in blown]
+    scene = next(staged.scenes(motions, Schedule.at([seconds], STEP)))
     return stretch, depth, cloths if settings.contact == "all" else [], scene
 
 

@@ -27,8 +27,9 @@ from drapery import Banner, Settings
 from drapery.garments import dressed_player, make_wearer
 from drapery.packs import open_packs
 from drapery.scenes import (
-    LiveBody,
+    STEP,
     LivePanel,
+    StagedBody,
     live_panels,
     played_body,
     played_garment,
@@ -123,11 +124,11 @@ def played(folder: Path, plan: bytes, actions: list[Action], count: int, timed: 
 
 def native(settings: Settings, steps: int) -> tuple[str, float]:
     """The digest after so many steps of the solver in Python, and microseconds a step."""
-    live = LiveBody(banner(settings), settings)
+    (drape,) = StagedBody(banner(settings), settings).drapes
+    moving, forces = drape.begin(STEP), drape.forces(None)
     start = time.process_time()
-    live.advance(steps)
+    state = moving.advance(forces, steps).state
     spent = time.process_time() - start
-    state = live.cloths[0].state
     return digest(state.positions[0], state.velocities[0]), spent / steps * 1e6
 
 

@@ -24,7 +24,7 @@ from drapery.garments import Garment, PlayerSettings, find_garment, garment_name
 from drapery.option import Output, Subject
 from drapery.packs import MemoryPack, open_packs
 from drapery.render import draw_scene
-from drapery.scenes import LiveBody, first_scene, repeating_garment
+from drapery.scenes import STEP, StagedBody, first_scene, repeating_garment
 from drapery.settings import OPTIONS
 from drapery.style import body_of
 from drapery.styles import style_names
@@ -287,11 +287,11 @@ def _garment_bytes(garment: Garment, request: Request) -> bytes:
 
 def _move_live(request: Request) -> bytes:
     settings = Settings(**request.options)
-    live = LiveBody(
-        body_of(Banner.parse(request.what["design"]), open_packs(()), settings), settings
-    )
-    live.advance(TICKS)
-    return b"".join(mesh.positions.tobytes() for mesh in live.meshes())
+    body = body_of(Banner.parse(request.what["design"]), open_packs(()), settings)
+    staged = StagedBody(body, settings, curves=False)
+    moved = [each.begin(STEP).advance(each.forces(None), TICKS) for each in staged.drapes]
+    meshes = staged.soft([each.state.positions[0] for each in moved])
+    return b"".join(mesh.positions.tobytes() for mesh in meshes)
 
 
 def _draw_played(request: Request) -> bytes:

@@ -1,16 +1,20 @@
-"""Helpers for the tests of scenes: a scene's last picture, and cloth's distance from colliders."""
+"""Helpers for the tests of scenes: a scene's last picture, a banner's cloth, and its clearance."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from drapery.cloth import Cloth, State
+from drapery import Banner, Settings
+from drapery.cloth import Cloth, Force, MovingCloth, State
 from drapery.cloth.colliders import Collider
 from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.colliders.sampling import sample_points
+from drapery.packs import open_packs
 from drapery.render.frame import Frame
+from drapery.scenes import STEP, StagedBody
 from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.drawing import scene_frames
+from drapery.style import body_of
 
 
 def still(name: str, frames: int = 1, fps: float = 20.0, **words: str) -> Frame:
@@ -18,6 +22,13 @@ def still(name: str, frames: int = 1, fps: float = 20.0, **words: str) -> Frame:
     scene = find_scene(name)
     clip = Clip((160, 160), frames, fps)
     return next(scene_frames(scene, scene.parameters(words), clip, "soft", last=True))
+
+
+def flag_of(settings: Settings) -> tuple[MovingCloth, tuple[Force, ...]]:
+    """The cloth of a white banner before its first time step, and the forces on it."""
+    body = body_of(Banner.parse("white"), open_packs(()), settings)
+    (drape,) = StagedBody(body, settings).drapes
+    return drape.begin(STEP), drape.forces(None)
 
 
 def clearance(cloth: Cloth, state: State, colliders: Sequence[Collider], order: int = 2) -> float:

@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from drapery.scenes.picture_grid import ClipPicture as ClipPicture, PictureGrid as PictureGrid
     from drapery.stage.bodies import (
         STEP as STEP,
-        LiveBody as LiveBody,
         StagedBody as StagedBody,
     )
     from drapery.stage.dressing import Dressed as Dressed

@@ -1,6 +1,6 @@
 """The cloth of a body: how it is made, moved, made thick and put into a `Scene`.
 
-Still pictures, loops, 3-D files and the studio's live cloth share it, so they agree to the bit.
+Still pictures, loops, 3-D files and pages share it, so they agree to the bit.
 A panel of cloth is simulated in its own frame, its top edge along x through the origin, and moved
 to its place when it is drawn.
 """
@@ -14,7 +14,7 @@ from functools import lru_cache, partial
 import numpy as np
 
 from drapery.arrays import Vectors
-from drapery.cloth import FABRICS, Fabric, MovingCloth, Wind
+from drapery.cloth import FABRICS, Fabric, Wind
 from drapery.mesh import Array, Mesh
 from drapery.render.scene import Material, Model, Scene
 from drapery.settings import Settings
@@ -23,7 +23,7 @@ from drapery.stage.recording import Drape, Schedule, record
 from drapery.stage.staging import Staging
 from drapery.style.body import Body, Panel
 from drapery.style.cloth_spec import ClothSpec, cloth_at_rest
-from drapery.style.extrusion import Shell, thicken
+from drapery.style.extrusion import thicken
 from drapery.style.finish import finished
 from drapery.style.grids import finer_shell
 from drapery.style.piece import Piece
@@ -31,7 +31,7 @@ from drapery.style.refinement import cells_per_cell, finer_shape
 from drapery.style.uv_mapping import UVMapping
 
 STEP = 1.0 / 60.0
-"""The longest time step of a picture, and the time step of live cloth [s]."""
+"""The longest time step of a picture, and the time step of a page [s]."""
 MAX_CACHED = 16 << 20
 """A recorded motion is cached up to this size [bytes]."""
 
@@ -43,7 +43,7 @@ class StagedBody:
 
     body: what is drawn.
     settings: the options of the picture.
-    cover: makes the thick cloth of a shell, a sheet [m], [N, 3], and a thickness [m].
+    curves: whether a large picture shows curves through the particles; a display's does not.
 
     Raises OptionError for options that do not fit the body.
     """
@@ -51,20 +51,33 @@ class StagedBody:
     step = STEP
     tolerance = 0.0
 
-    def __init__(
-        self,
-        body: Body,
-        settings: Settings,
-        cover: Callable[[Shell, Vectors, float], Mesh] = thicken,
-    ) -> None:
+    def __init__(self, body: Body, settings: Settings, *, curves: bool = True) -> None:
         self.body = body
         self.staging = Staging(settings, body.ground, body.light, body.camera)
         self.parts = [self.staging.turned(part.mesh) for part in body.parts]
         settings, (columns, rows) = self.staging.settings, self.staging.settings.grid
         # A shape step gets the simulated grid, and makes the finer one that it needs.
-        curved = settings.pose == "cloth" and not self.staging.style.has("shape")
-        self.times = cells_per_cell(settings.drawn_size, (rows, columns)) if curved else 1
-        self._cover = cover
+        curves = curves and settings.pose == "cloth" and not self.staging.style.has("shape")
+        self.times = cells_per_cell(settings.drawn_size, (rows, columns)) if curves else 1
+
+    @property
+    def drapes(self) -> tuple[Drape, ...]:
+        """The cloth of each panel in the wind of the settings; none in the game's stiff pose."""
+        return tuple(_drape_of(spec, self.staging.settings) for spec in self._specs)
+
+    @property
+    def _specs(self) -> tuple[ClothSpec, ...]:
+        panels = self.body.panels if self.staging.settings.pose == "cloth" else ()
+        return tuple(panel.cloth for panel in panels)
+
+    def at_rest(self) -> list[Mesh]:
+        """What is drawn before the first time step; see `soft` and `stiff`.
+
+        Raises OptionError for cloth that cannot be made.
+        """
+        if self.staging.settings.pose == "cloth":
+            return self.soft([drape.begin(STEP).state.positions[0] for drape in self.drapes])
+        return self.stiff([0.0 for _ in self.body.panels])
 
     def soft(self, sheets: Sequence[Vectors]) -> list[Mesh]:
         """The stiff parts, then each panel as cloth: thick and in its place.
@@ -125,15 +138,14 @@ class StagedBody:
         Raises OptionError for cloth that cannot be moved.
         """
         settings = self.staging.settings
-        specs = tuple(panel.cloth for panel in self.body.panels) if settings.pose == "cloth" else ()
-        particles = sum(math.prod(spec.shape) for spec in specs)
+        particles = sum(math.prod(spec.shape) for spec in self._specs)
         size = len(at.moments) * particles * 3 * np.dtype(float).itemsize
         named = isinstance(settings.solver, str) and not isinstance(settings.fabric, Fabric)
         named = named and not isinstance(settings.wind, Wind) and not settings.forces
         if named and on_moment is None and size <= MAX_CACHED:
             # Pictures that differ in other options share a motion.
-            return _cached(specs, settings.only("motion", "wind"), at)
-        return record([drape_of(spec, settings) for spec in specs], at, on_moment=on_moment)
+            return _cached(self._specs, settings.only("motion", "wind"), at)
+        return record(self.drapes, at, on_moment=on_moment)
 
     def scenes(self, motions: Sequence[Vectors], at: Schedule) -> Iterator[Scene]:
         """The scene of each picture of a schedule.
@@ -190,60 +202,7 @@ class StagedBody:
         piece, positions = panel.piece, sheet + panel.origin
         if self.times > 1 or self.staging.style.has("shape"):
             return self.staging.turned(self.staging.style.mesh(self._piece(panel), positions))
-        return self.staging.turned(self._cover(piece.shell, positions, piece.thickness))
-
-
-class LiveBody(StagedBody):
-    """A body at one moment; `advance` steps its cloth.
-
-    wind: the wind from now on.
-    steps: how many time steps have been made.
-
-    body: what is drawn.
-    settings: the options of the picture.
-    cloths: one for each panel; at rest unless given, none for the game's own stiff pose.
-    cover: see `StagedBody`.
-
-    Raises OptionError for options that do not fit the body.
-    """
-
-    def __init__(
-        self,
-        body: Body,
-        settings: Settings,
-        cloths: Sequence[MovingCloth] | None = None,
-        cover: Callable[[Shell, Vectors, float], Mesh] = thicken,
-    ) -> None:
-        super().__init__(body, settings, cover)
-        self.times = 1  # it is shown at the display's rate
-        settings = self.staging.settings
-        self.wind = wind_of(settings)
-        self.steps = 0
-        if cloths is None:
-            moves = settings.pose == "cloth"
-            cloths = [cloth_at_rest(panel.cloth, STEP) for panel in body.panels if moves]
-        self.cloths = list(cloths)
-
-    @property
-    def time(self) -> float:
-        """How long the cloth has moved [s]."""
-        return self.steps * STEP
-
-    def advance(self, steps: int = 1) -> None:
-        """Make some time steps of STEP in the wind.
-
-        Raises OptionError where the cloth has blown up; nothing has changed then.
-        """
-        if self.staging.settings.pose == "cloth":
-            forces = forces_of(self.staging.settings, self.wind)
-            self.cloths = [cloth.advance(forces, steps) for cloth in self.cloths]
-        self.steps += steps
-
-    def meshes(self) -> list[Mesh]:
-        """What is drawn at this moment; see `soft` and `stiff`."""
-        if self.staging.settings.pose == "cloth":
-            return self.soft([cloth.state.positions[0] for cloth in self.cloths])
-        return self.stiff([_phase(panel, self.time) for panel in self.body.panels])
+        return self.staging.turned(thicken(piece.shell, positions, piece.thickness))
 
 
 def with_finish(
@@ -287,7 +246,7 @@ def _phase(panel: Panel, time: float) -> float:
     return time / panel.sway if panel.sway else 0.0
 
 
-def drape_of(spec: ClothSpec, settings: Settings) -> Drape:
+def _drape_of(spec: ClothSpec, settings: Settings) -> Drape:
     """The cloth of a spec in the wind of the settings. Raises OptionError."""
     return Drape(
         partial(cloth_at_rest, spec),
@@ -298,7 +257,7 @@ def drape_of(spec: ClothSpec, settings: Settings) -> Drape:
 @lru_cache(maxsize=16)
 def _cached(specs: tuple[ClothSpec, ...], settings: Settings, at: Schedule) -> tuple[Array, ...]:
     # Banners of one batch often move alike, because a design does not change the cloth.
-    motions = record([drape_of(spec, settings) for spec in specs], at)
+    motions = record([_drape_of(spec, settings) for spec in specs], at)
     for motion in motions:
         motion.flags.writeable = False
     return tuple(motions)

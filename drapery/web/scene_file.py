@@ -37,8 +37,8 @@ from drapery.packs import Packs
 from drapery.render import VIEWS, Camera, Material, Scene, TextureLayer, frame_view
 from drapery.scenes import (
     Dressed,
-    LiveBody,
     PlayedSubject,
+    StagedBody,
     Staging,
     first_scene,
     floor_under,
@@ -142,14 +142,14 @@ def _body_scene(
 ) -> tuple[_Message, PlayedSubject, Body]:
     """The scene, what plays in it, and what it shows."""
     body = body_of(design, packs, settings)
-    live = LiveBody(body, settings)
-    staging = live.staging
-    _check(staging.settings, staging.style, bool(live.cloths) or settings.kind == "shield")
+    staged = StagedBody(body, settings, curves=False)
+    staging = staged.staging
+    _check(staging.settings, staging.style, bool(staged.drapes) or settings.kind == "shield")
     styled = staging.style.has("material")  # its steps need all layers of one design
     shown, sheets = (body, None) if styled or not design else _with_sheets(body, packs, patterns)
     settings = staging.settings
-    scene = _first_message(*_start(live, shown), settings)
-    points, aspect = staging.framed(_framed(live)), settings.size[0] / settings.size[1]
+    scene = _first_message(*_start(staged, shown), settings)
+    points, aspect = staging.framed(_framed(staged)), settings.size[0] / settings.size[1]
     views = {name: astuple(frame_view(name, points, aspect)) for name in VIEWS}
     flag = scene[0]["runs"][-len(body.panels or body.parts)][0]
     tints = _tints(settings, partial(Staging, light=body.light))
@@ -259,29 +259,29 @@ def _with_sheets(body: Body, packs: Packs, patterns: Sequence[str]) -> tuple[Bod
     return replace(body, panels=tuple(panels)), names
 
 
-def _start(live: LiveBody, shown: Body) -> tuple[Scene, range]:
+def _start(staged: StagedBody, shown: Body) -> tuple[Scene, range]:
     """The scene at its start, and the numbers of the models that are cloth."""
-    staging, meshes = live.staging, live.meshes()
-    models = live.models(meshes, 0.0, shown)
+    staging, meshes = staged.staging, staged.at_rest()
+    models = staged.models(meshes, 0.0, shown)
     shadow = None
     if staging.settings.shadow:
         shadow = staging.contact(models, floor_under(meshes))
-    scene = staging.scene(models, staging.camera(_framed(live), staging.aspect), shadow)
+    scene = staging.scene(models, staging.camera(_framed(staged), staging.aspect), shadow)
     last = len(scene.models)
-    return scene, range(last - len(live.body.panels), last)
+    return scene, range(last - len(staged.body.panels), last)
 
 
-def _framed(live: LiveBody) -> list[Array]:
+def _framed(staged: StagedBody) -> list[Array]:
     """What cameras frame [m], each [N, 3]."""
-    return [*(mesh.positions for mesh in live.meshes()), *_swings(live)]
+    return [*(mesh.positions for mesh in staged.at_rest()), *_swings(staged)]
 
 
-def _swings(live: LiveBody) -> list[Array]:
+def _swings(staged: StagedBody) -> list[Array]:
     """Where light wind moves the cloth [m], each [N, 3]."""
     points = [
         panel.cloth.make_cloth().rest_positions + panel.origin + swing
-        for panel in live.body.panels
+        for panel in staged.body.panels
         for swing in SWINGS
     ]
     nothing = np.zeros((0, 3), np.int32)
-    return [live.staging.turned(Mesh(each, each, nothing, each)).positions for each in points]
+    return [staged.staging.turned(Mesh(each, each, nothing, each)).positions for each in points]

@@ -2,15 +2,12 @@
 
 import numpy as np
 import pytest
+from scene_helpers import flag_of
 
-from drapery import Banner
 from drapery.cloth import grid, max_stretch
 from drapery.cloth.gathering import fold_count, gathered_state
-from drapery.packs import open_packs
 from drapery.settings import Settings
-from drapery.stage.bodies import LiveBody
 from drapery.style.cloth_spec import ClothSpec, cloth_at_rest
-from drapery.style.kinds import body_of
 
 WIDTH, FULLNESS = 0.8, 0.08
 
@@ -53,15 +50,13 @@ def test_only_cloth_that_is_pinned_along_the_top_is_gathered(pins, wider):
 
 def test_the_flag_of_a_banner_keeps_its_bar_and_its_folds():
     settings = Settings(wind=0.0)
-    live = LiveBody(body_of(Banner("white"), open_packs(), settings), settings)
-    top = [cloth.state.positions[0, :16].copy() for cloth in live.cloths]
-    live.advance(30)
-    now = live.cloths[0].state.positions[0].reshape(31, 16, 3)
-    assert (now[0] == top[0]).all()
+    moving, forces = flag_of(settings)
+    top = moving.state.positions[0, :16].copy()
+    now = moving.advance(forces, 30).state.positions[0].reshape(31, 16, 3)
+    assert (now[0] == top).all()
     assert np.ptp(now[10, :, 2]) > 0.02
 
 
 def test_a_coarse_banner_is_not_gathered():
     settings = Settings(grid=(5, 9))
-    live = LiveBody(body_of(Banner("white"), open_packs(), settings), settings)
-    assert (live.cloths[0].state.positions[..., 2] == 0).all()
+    assert (flag_of(settings)[0].state.positions[..., 2] == 0).all()

@@ -5,8 +5,9 @@ from itertools import islice
 import numpy as np
 import pytest
 import trimesh
+from scene_helpers import flag_of
 
-from drapery import Banner, Settings
+from drapery import Settings
 from drapery.cloth import (
     Capsule,
     Collider,
@@ -32,9 +33,6 @@ from drapery.cloth.strain import (
     limit_strain,
     strain_limit,
 )
-from drapery.packs import open_packs
-from drapery.scenes import LiveBody
-from drapery.style import body_of
 
 SMALL = {"grid": (9, 17)}
 STORMS = [
@@ -52,10 +50,9 @@ STORMS = [
 @pytest.mark.parametrize("options", STORMS, ids=str)
 def test_a_storm_leaves_no_edge_over_its_limit(options):
     settings = Settings(**options)
-    live = LiveBody(body_of(Banner.parse("white"), open_packs(()), settings), settings)
+    moving, forces = flag_of(settings)
     for _ in range(6):
-        live.advance(15)
-        (moving,) = live.cloths
+        moving = moving.advance(forces, 15)
         positions = moving.state.positions[0].astype(float)
         assert 1 + max_stretch(positions, moving.cloth) <= MOST_STRETCH + 1e-5
         assert moving.state.strain == 0.0
@@ -145,8 +142,7 @@ FLAT = [{"solver": "xpbd"}, {"solver": "xpbd", "placement": "wall"}, {"solver": 
 @pytest.mark.parametrize("options", FLAT, ids=str)
 def test_wind_exactly_along_the_cloth_does_not_leave_it_flat(options):
     settings = Settings(wind=40.0, gusts=0.0, direction=90.0, **SMALL, **options)
-    live = LiveBody(body_of(Banner.parse("white"), open_packs(()), settings), settings)
-    live.advance(120)
-    places = live.cloths[0].state.positions[0]
+    moving, forces = flag_of(settings)
+    places = moving.advance(forces, 120).state.positions[0]
     across = np.linalg.svd(places - places.mean(axis=0), full_matrices=False)[1][2]
     assert across / np.sqrt(len(places)) > 0.01, "rms distance from the plane that fits best"

@@ -5,13 +5,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scene_helpers import flag_of
 
 import drapery.style
 from drapery import Banner
 from drapery.banner.packs import open_packs
 from drapery.cloth import FABRICS, Cloth, Fabric, SolverXPBD, State, Wind, grid
 from drapery.mesh import Array
-from drapery.scenes import LiveBody, loop, still, wind_of
+from drapery.scenes import STEP, StagedBody, loop, still, wind_of
 from drapery.settings import FabricName, Settings
 from drapery.style.kinds import body_of
 
@@ -29,12 +30,13 @@ def test_objects_equal_the_names_they_stand_for() -> None:
     assert np.array_equal(flag(fabric=FABRICS["wool"]), named)
 
 
-def test_a_live_body_advances_to_the_still() -> None:
-    live = LiveBody(body_of(Banner(), open_packs(()), NAMED), NAMED)
+def test_the_cloth_of_a_body_advances_to_the_still() -> None:
+    staged = StagedBody(body_of(Banner(), open_packs(()), NAMED), NAMED)
+    (drape,) = staged.drapes
+    moving, forces = drape.begin(STEP), drape.forces(None)
     for _ in range(30):
-        live.advance()
-    assert live.time == pytest.approx(NAMED.time)
-    assert np.allclose(live.meshes()[-1].positions, flag(), atol=1e-6)
+        moving = moving.advance(forces, 1)
+    assert np.allclose(staged.soft(moving.state.positions)[-1].positions, flag(), atol=1e-6)
 
 
 @dataclass
@@ -60,14 +62,11 @@ def test_objects_are_not_taken_from_the_cache() -> None:
 def creases(fabric: FabricName) -> float:
     """The share of neighbouring cells that meet at over 60 degrees in 8 m/s."""
     settings = Settings(fabric=fabric, wind=8.0)
-    live, (columns, rows) = (
-        LiveBody(body_of(Banner(), open_packs(()), settings), settings),
-        settings.grid,
-    )
+    (moving, forces), (columns, rows) = flag_of(settings), settings.grid
     found = []
     for _ in range(16):
-        live.advance(24)
-        places = live.cloths[0].state.positions[0].reshape(rows, columns, 3)
+        moving = moving.advance(forces, 24)
+        places = moving.state.positions[0].reshape(rows, columns, 3)
         normals = np.cross(places[1:, :-1] - places[:-1, 1:], places[1:, 1:] - places[:-1, :-1])
         normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
         across = (normals[:, 1:] * normals[:, :-1]).sum(axis=-1)
@@ -86,8 +85,7 @@ def test_fabrics_of_stiff_folds_bend_as_they_are(
     fabric: FabricName, shape: tuple[int, int]
 ) -> None:
     settings = Settings(fabric=fabric, grid=shape, wind=8.0)
-    live = LiveBody(body_of(Banner(), open_packs(()), settings), settings)
-    cloth = live.cloths[0].cloth
+    cloth = flag_of(settings)[0].cloth
     size = np.ptp(cloth.rest_positions[:, :2], axis=0)
     expected = grid(*shape, *size, fabric=FABRICS[fabric]).bending
     assert np.allclose(cloth.bending.stiffness, expected.stiffness, rtol=1e-6)

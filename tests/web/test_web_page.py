@@ -15,7 +15,7 @@ from node_program import NODE, run_node
 from drapery import Banner, OptionError
 from drapery.packs import open_packs
 from drapery.render import VIEWS
-from drapery.scenes import LiveBody, played_body
+from drapery.scenes import StagedBody, played_body
 from drapery.settings import Settings
 from drapery.style import body_of
 from drapery.web import package, page
@@ -69,8 +69,8 @@ def test_the_bundle_has_every_module_that_the_element_imports() -> None:
 def test_a_scene_begins_as_the_cloth_hangs(playable: Playable) -> None:
     packs, settings = open_packs(()), playable(size=SIZE)
     header, arrays = unpack(gzip.decompress(scene_bytes(DESIGN, packs, settings)))
-    live = LiveBody(body_of(DESIGN, packs, settings), settings)
-    meshes = np.concatenate([mesh.positions for mesh in live.meshes()])
+    staged = StagedBody(body_of(DESIGN, packs, settings), settings, curves=False)
+    meshes = np.concatenate([mesh.positions for mesh in staged.at_rest()])
     np.testing.assert_array_equal(arrays["positions"], meshes.astype(np.float32).reshape(-1))
     ((first, count),) = header["grip"]
     assert first + count == header["vertices"] == len(meshes)

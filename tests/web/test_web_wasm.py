@@ -14,14 +14,15 @@ import pytest
 pytest.importorskip("ziglang", reason="ziglang is not installed (drapery-mc[web-build])")
 pytest.importorskip("wasmtime", reason="wasmtime is not installed (drapery-mc[dev])")
 
+from scene_helpers import flag_of
 from wasm_player import WasmPlayer, built_module, quick_settings, white_banner
 
 from drapery import Banner, DraperyError, Settings
-from drapery.cloth import SolverPBD, Wind
+from drapery.cloth import SolverPBD, State, Wind
 from drapery.cloth.forces import lower_forces
 from drapery.packs import open_packs
 from drapery.render import draw_scene
-from drapery.scenes import LiveBody, live_panels, live_picture, played_body, still
+from drapery.scenes import StagedBody, live_panels, live_picture, played_body, still
 from drapery.stage.forces import forces_of, wind_of
 from drapery.style import Body, body_of
 from drapery.web.wasm import build
@@ -43,6 +44,12 @@ def picture_plan(body: Body, settings: Settings) -> bytes:
     return write_plan(live_picture(body, settings, LANES), module_info(built_module()))
 
 
+def moved(settings: Settings, steps: int) -> State:
+    """The cloth of a white banner after time steps of Python."""
+    moving, forces = flag_of(settings)
+    return moving.advance(forces, steps).state
+
+
 def digest(*arrays: Any) -> str:
     return sha256(
         b"".join(np.ascontiguousarray(a, np.float32).tobytes() for a in arrays)
@@ -56,37 +63,35 @@ def test_the_module_holds_no_path_of_the_machine_that_compiled_it() -> None:
 @pytest.mark.parametrize("placement", ["standing", "wall"])
 def test_600_steps_have_the_bits_of_python(placement: Any) -> None:
     settings = quick_settings(placement=placement, rotation=3 if placement == "standing" else 0)
-    live = LiveBody(white_banner(settings), settings)
-    live.advance(600)
+    state = moved(settings, 600)
+    staged = StagedBody(white_banner(settings), settings, curves=False)
+    mesh = staged.soft(state.positions)[-1]
     player = WasmPlayer(built_module(), plan_of(settings))
     player.step(599)
     player.step(1)
-    state, mesh = live.cloths[0].state, live.meshes()[-1]
     played = digest(player.read("positions"), player.read("velocities"))
     assert played == digest(state.positions[0], state.velocities[0])
     player.run("cover")
     assert digest(player.read("vertices")) == digest(mesh.positions)
     assert digest(player.read("normals")) == digest(mesh.normals)
-    light = live.staging.light.brightness(mesh.normals.astype(np.float32))
+    light = staged.staging.light.brightness(mesh.normals.astype(np.float32))
     assert np.abs(player.read("light") - light).max() < 1e-6
 
 
 @pytest.mark.filterwarnings("ignore:pins or colliders pull cloth")  # a storm
 def test_contact_of_the_cloth_with_itself_has_the_bits_of_python() -> None:
-    moved, sizes = [], []
+    played, sizes = [], []
     for contact in ("world", "all"):
         blown = {"wind": 40.0, "gusts": 2.0, "direction": 240.0, "fabric": "silk"}
         settings = quick_settings(**blown, contact=contact)
-        live = LiveBody(white_banner(settings), settings)
-        plan = picture_plan(live.body, settings)
+        plan = picture_plan(white_banner(settings), settings)
         player = WasmPlayer(built_module(), plan)
         player.step(300)
         sizes.append(player.memory.data_len(player.store))
-        live.advance(300)
-        moved.append(digest(player.read("positions"), player.read("velocities")))
-        state = live.cloths[0].state
-        assert moved[-1] == digest(state.positions[0], state.velocities[0])
-    assert moved[0] != moved[1], "the cloth has met itself"
+        played.append(digest(player.read("positions"), player.read("velocities")))
+        state = moved(settings, 300)
+        assert played[-1] == digest(state.positions[0], state.velocities[0])
+    assert played[0] != played[1], "the cloth has met itself"
     assert sizes[1] < sizes[0] + (1 << 20), "what a step allocates is free after it"
 
 
@@ -143,14 +148,12 @@ def test_a_turned_wind_has_the_bits_of_python_and_its_gusts_do_not_jump() -> Non
 def test_a_seed_and_a_phase_of_the_host_are_those_of_a_wind() -> None:
     velocity = (0.5, 0.0, 5.0)
     settings = quick_settings(wind=Wind(velocity, seed=9, phases=2.5))
-    live = LiveBody(white_banner(settings), settings)
-    live.advance(60)
+    state = moved(settings, 60)
     player = WasmPlayer(built_module(), plan_of(quick_settings(wind=Wind(velocity))))
     player.write("seeds", 9)
     player.write("phases", *(LANES * [2.5]))
     player.run("aim")
     player.step(60)
-    state = live.cloths[0].state
     played = digest(player.read("positions"), player.read("velocities"))
     assert played == digest(state.positions[0], state.velocities[0])
 
@@ -278,11 +281,10 @@ def test_javascript_plays_many_cloths_in_one_memory(tmp_path: Path) -> None:
         timeout=60,
     )
     assert done.returncode == 0, done.stderr
-    live = LiveBody(white_banner(settings), settings)
-    live.advance(600)
-    state = live.cloths[0].state
+    state = moved(settings, 600)
     expected = digest(state.positions[0], state.velocities[0])
-    vertices = 3 * len(live.meshes()[-1].positions)
+    staged = StagedBody(white_banner(settings), settings, curves=False)
+    vertices = 3 * len(staged.at_rest()[-1].positions)
     refused = "the plan of the cloth is damaged"
     assert json.loads(done.stdout) == [
         *(expected, 10, True),
