@@ -90,7 +90,7 @@ def _nearer(points: Array, camera: Camera) -> Array:
 
 
 def _depth(points: Array, camera: Camera) -> Array:
-    """Distance [m] of points from the camera's plane, at least that of the near plane."""
+    """Distance [m] of points from the camera's plane, at least the near plane's."""
     eye = np.asarray(camera.position, np.float64)
     sight = unit(np.asarray(camera.target) - eye)
     away: Array = np.maximum(dots(points - eye, sight), camera.near)

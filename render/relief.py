@@ -1,7 +1,7 @@
 """Normal maps: every texel is lit by its normal before the scene is drawn.
 
 Textures are sampled at the nearest texel, so one light value per texel is exact, and every backend
-draws it in the same way. The position of a texel on the surface is that of its middle in texture
+draws it in the same way. The position of a texel on the surface is where its middle lies in texture
 space, where the mesh is unfolded by its UVs (Heckbert, "Survey of texture mapping", 1986). The
 normal of the mesh there, changed by the map, is lit by the scene's light. Each part of a sheet
 should cover one part of a mesh; where triangles share texels, the last triangle lights them.

@@ -10,7 +10,7 @@ twist is a difference across a cell: ½ B ∫ |x_uu|² + |x_vv|² + 2 |x_uv|² (
 ratio is 0). On triangles a stencil is a hinge of two faces: Bergou, Wardetzky, Harmon, Zorin,
 Grinspun, "A quadratic bending model for inextensible surfaces" (SGP 2006), scaled so that a sheet
 of equilateral triangles bent to a cylinder of curvature κ has the energy ½ B κ² per area. The
-damping is that of Kelvin and Voigt: the moment is B (κ + τ dκ/dt).
+damping follows Kelvin and Voigt: the moment is B (κ + τ dκ/dt).
 """
 
 from collections.abc import Sequence

@@ -39,9 +39,9 @@ class Fabric:
     friction: coefficient of friction on other things, 0 to 100.
     transmission: the share of light that passes through, 0 to 1; the motion does not depend on it.
 
-    Stiffness is 0 to 1e9 N/m. The default ratio 5 : 1 : 0.2 is that of the flag of a Minecraft mod
-    (50 : 10 : 2 for particles of 1 kg). The stiffness is that of one spring, so a finer grid of the
-    same fabric is softer relative to its mass.
+    Stiffness is 0 to 1e9 N/m. The flag of a Minecraft mod has the default ratio 5 : 1 : 0.2
+    (50 : 10 : 2 for particles of 1 kg). The stiffness is of one spring, so a finer grid of the same
+    fabric is softer relative to its mass.
 
     Raises OptionError for a number out of these bounds.
     """

@@ -21,7 +21,7 @@ HALVINGS = 40
 
 
 def fold_count(columns: int) -> int:
-    """How many folds a grid of so many columns of particles can show; 0 for coarse grids."""
+    """How many folds a grid with these columns of particles can show; 0 for a coarse one."""
     folds = min(MOST_FOLDS, (columns - 1) // FOLD_COLUMNS)
     return folds if folds >= LEAST_FOLDS else 0
 

@@ -22,7 +22,7 @@ from drapery.mesh import Array
 BLOCK_BYTES = 1 << 18
 """Bytes of a block's positions and velocities; with the kernels' scratch arrays it fits in L2."""
 MAX_TIMES = 2048
-"""Tables of poses are asked for at most so many times at once, which bounds their memory."""
+"""The most times at which tables of poses are made at once, which bounds their memory."""
 
 
 def to_lanes(values: Array) -> Array:

@@ -1,6 +1,6 @@
 """Cloth that a page plays without Python: the loop over time steps as a kernel.
 
-`play` is compiled to WebAssembly by `drapery.web.wasm`, from this source and from that of the
+`play` is compiled to WebAssembly by `drapery.web.wasm`, from this source and the source of the
 solvers. On a processor it gives the bits of `MovingCloth.advance`, as long as nothing is pulled:
 the loop calls the solvers' own kernels. Everything that a host may change between two calls is in
 arrays, so that it only writes numbers.
@@ -140,7 +140,7 @@ def live_call(
 
 
 def _narrowed(batch: Batch, lanes: int, wind: LiveWind) -> Batch:
-    """The batch with so many lanes, with room for all waves, and for the contact of one cloth."""
+    """The batch with other lanes, with room for all waves, and for the contact of one cloth."""
 
     def cut(values: Array) -> Array:
         return np.ascontiguousarray(values[..., :lanes])

@@ -39,8 +39,8 @@ class LiveWind(NamedTuple):
     velocity: the free mean wind that the host wants [m/s], [3]. lee: factors of it at the cloth,
     [3]. airflow: added to it at the cloth [m/s], [3]. pull: gravity without wind [m/s²], then the
     part of the wind's velocity that acts beside it [1/s], [4]. swell: frequency of the swell
-    [1/s], [1]. strengths: over the mean speed that of gusts, of ripples and of vortices, then the
-    size of the gusts [m], [4]. ripples: none without them. vortices: the phase of the vortices,
+    [1/s], [1]. strengths: of gusts, ripples and vortices over the mean speed, then the size of the
+    gusts [m], [4]. ripples: none without them. vortices: the phase of the vortices,
     [1], or none. rest, normal, down: see `resting_frame`.
     """
 

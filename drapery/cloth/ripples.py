@@ -27,9 +27,9 @@ from drapery.mesh import Array, face_normals
 WAVES = 16
 """Waves of a wind, without the vortices."""
 OCTAVES = 2.0
-"""Their lengths are spread over so many octaves around the size of the ripples."""
+"""The octaves around the size of the ripples over which their lengths are spread."""
 CARRIED = 0.45, 0.75
-"""Speeds of waves over that of the wind: Corcos's range."""
+"""Speeds of waves over the wind's: Corcos's range."""
 MEAN_CARRIED = sum(CARRIED) / 2
 SPREAD = 0.2
 """Waves run up to this part of a turn to either side of the flow."""
@@ -93,7 +93,7 @@ def with_waves(gusts: Gusts, winds: Sequence[Wind], cloth: Cloth) -> Gusts:
 
 
 def _filled(values: Array, count: int) -> Array:
-    """So many rows, the last of them zeros."""
+    """The rows, with zeros behind them up to a number of rows."""
     more = np.zeros((count - len(values), *values.shape[1:]))
     return np.concatenate([values, more]) if len(more) else values
 
@@ -127,7 +127,7 @@ def _at_places(rates: Array, turns: Array, places: Array, strength: Array) -> Wa
 class RippleTables(NamedTuple):
     """What does not depend on the velocity of a wind, of K ripples.
 
-    lengths: [m], [K]. carried: their speed over that of the wind, [K]. forward, sideways: of the
+    lengths: [m], [K]. carried: their speed over the wind's, [K]. forward, sideways: of the
     direction in which they run, to the flow along the cloth, [K]. roots: cube roots of the lengths,
     [K]: longer waves are stronger so (Kolmogorov 1941). turns: their phases, [K]. norm: 1 over the
     rms of all roots together, [1].

@@ -88,7 +88,7 @@ class PhotoCorners(Element):
         self._set_corners([(0.25, 0.25), (0.75, 0.25), (0.75, 0.75), (0.25, 0.75)])
 
     async def _press(self, number: int, steps: Any) -> None:
-        """Move a corner by so many steps to the right and down; by none, take all."""
+        """Move a corner by steps to the right and down; by none, take all."""
         if not steps:
             await self._take_all()
             return

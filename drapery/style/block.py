@@ -110,7 +110,7 @@ def stiff_flag(placement: Placement, phase: float, thickness: float = 1.0) -> Me
     """The game's own flag, a stiff board, at a phase 0..1 of its sway. thickness: in texels.
 
     The flag's top edge is at (0, 0, 0); the pivot is 1.5 model units behind it. The x axis of the
-    model is that of the world, and y and z are both reversed, so the angle keeps its sign.
+    model is the world's, and y and z are both reversed, so the angle keeps its sign.
     """
     flag = stiff_board(FLAG_SIZE, thickness * SCALE, FLAG_MAPPING)
     before_pivot = moved(flag, np.array([0.0, 0.0, -_FLAG_MIDDLE * SCALE]))

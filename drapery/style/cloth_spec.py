@@ -34,7 +34,7 @@ THINNEST = 0.1
 """Thinner cloth keeps the distance of this thickness from solids [texels]."""
 STRONG_WIND, CELLS = 8.0, 5
 """A fabric with bending is at least so stiff that a wind of this speed [m/s] drives no folds
-shorter than so many cells of the grid; but none is made stiffer than wool."""
+shorter than this number of cells of the grid; but none is made stiffer than wool."""
 MAX_KEPT = 4096
 """The most particles of a cloth at rest that is kept."""
 
@@ -42,7 +42,7 @@ MAX_KEPT = 4096
 @dataclass(frozen=True)
 class Solid:
     """An upright box that cloth cannot enter: low and high corner [m], infinite where it has no
-    end, such as that of the ground."""
+    end, as the ground has none."""
 
     low: tuple[float, float, float]
     high: tuple[float, float, float]

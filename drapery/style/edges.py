@@ -3,7 +3,7 @@
 A strip lies along an edge, WIDE texels from the edge inwards and LONG along it, of the same pitch
 as the tiles of `finish`. Its slopes and tones are added to those of the cloth. The shine of a strip
 is the share of the cloth's own weave that shows; what covers the rest is smooth and shines fully.
-The first column is also that of the rim.
+The rim has the first column too.
 """
 
 import numpy as np

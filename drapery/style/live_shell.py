@@ -61,7 +61,7 @@ def make_live_shell(
 ) -> LiveShell:
     """The shell of a panel. thickness: [m]; for the others see `LiveShell`.
 
-    finer: that of curves through its particles, see `cover_curves`; None for its own.
+    finer: the shell of curves through its particles, see `cover_curves`; None for its own.
     """
     drawn = finer or shell
     count = len(drawn.uvs)

@@ -29,7 +29,7 @@ def cells_per_cell(size: tuple[int, int], shape: tuple[int, int], share: float =
     """How many cells a picture shows along each cell of a simulated grid.
 
     size: width and height of the picture [pixels]. shape: rows and columns of the grid.
-    share: the height of the cloth over that of all that the picture shows.
+    share: the height of the cloth over the height of all that the picture shows.
     """
     if max(size) < FROM_SIDE:
         return 1

@@ -75,12 +75,12 @@ class BoxMapping:
     All rectangles are fractions of the texture: left, top, right, bottom. The picture continues
     around the corners.
 
-    front_rect: that of the front.
-    back_rect: that of the back.
-    left: that of the left edge, which has the front at its right border.
-    right: that of the right edge, which has the front at its left border.
-    top: that of the top edge, which has the front at its lower border.
-    bottom: that of the bottom edge, which has the front at its lower border.
+    front_rect: of the front.
+    back_rect: of the back.
+    left: of the left edge, which has the front at its right border.
+    right: of the right edge, which has the front at its left border.
+    top: of the top edge, which has the front at its lower border.
+    bottom: of the bottom edge, which has the front at its lower border.
     """
 
     front_rect: Rect

@@ -23,7 +23,7 @@ SHRINK = 0.84
 LEAST = 48
 """No smaller picture is tried [pixels]: a design is hard to read there."""
 LIKELY = 1.3
-"""A loop is tried if it is expected to be up to so many times as large as allowed."""
+"""A loop is tried if it is expected to be up to this multiple of the size that is allowed."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ def save_for(
 ) -> FittedLoop:
     """Write the best loop that a destination takes.
 
-    It is the largest, then that with the most frames, then that of the best quality.
+    It is the largest, then the one with the most frames, then the one of the best quality.
 
     to: a name of `file_formats.DESTINATIONS`.
     frames_at: draws the loop of a size [pixels] and of frames/s.

@@ -26,7 +26,7 @@ MAX_SIDE = 16_384  # the largest texture that common graphics hardware takes
 
 
 def sheet_pixels(frames: Sequence[HasPixels], columns: int) -> Pixels:
-    """The frames row by row, so many in a row. Raises OutputError if the sheet is too large."""
+    """The frames row by row, in columns. Raises OutputError if the sheet is too large."""
     height, width = frames[0].pixels.shape[:2]
     rows = -(-len(frames) // columns)
     if max(columns * width, rows * height) > MAX_SIDE:

@@ -4,7 +4,7 @@ Shadows: the scene is drawn from far away in the direction of the light, and eac
 keeps the depth of the nearest surface (Williams, "Casting curved shadows on curved surfaces",
 SIGGRAPH 1978). A sample of the picture lies in shadow as far as the map's samples around its place
 are nearer to the light (Reeves, Salesin and Cook, "Rendering antialiased shadows with depth maps",
-SIGGRAPH 1987). Coverage of the map is exact, as that of the picture.
+SIGGRAPH 1987). Coverage of the map is exact, as coverage of the picture is.
 
 Ambient occlusion: how much of the sky each vertex sees, by small maps from many directions.
 """

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from drapery.mesh import Array
 
 LEAF = 4
-"""Triangles in a leaf: a test of a box takes about as long as that of one or two triangles."""
+"""Triangles in a leaf: a test of a box takes about as long as a test of one or two triangles."""
 
 
 class Tree(NamedTuple):

@@ -44,7 +44,7 @@ TOLERANCE = 0.02
 """A pass whose deepest contact is shallower than this part of the radius is the last one."""
 CLOSE, FARTHER = 0.5, 1.5
 """At first only what is within this many times the radius, beyond the radius, is looked at, or
-within so many times as far as contact moved a particle in the step before."""
+within this multiple of how far contact moved a particle in the step before."""
 GUARDED = 0.25
 """Particles may return to their start only if the last pass found a contact that is deeper than
 this part of the radius."""

@@ -52,7 +52,7 @@ STRETCH = 1.25
 parts of the cloth where they were, is made again with more contacts: the solver would tear at what
 contact holds, more from step to step."""
 MOST_CONTACTS = 32
-"""Then contacts are resolved in every substep, or in some of them, so many times at most. (Those of
+"""How often contacts are then resolved at most, in every substep or in some of them. (Those of
 `xpbd` are in every substep.)"""
 STRAIN_ROUNDS = 6
 """How often contact is resolved again after springs that are too long were shortened."""
@@ -60,7 +60,7 @@ FREE = 1.0
 """Cloth that boxes move at the start of a step by more than this part of the distance that it keeps
 does not go back there."""
 TORN, LONG = 3, 4
-"""What `resolve` returns beside `MET` and `HELD`: the step shall be made again; a spring is still
+"""What `resolve` returns beside `MET` and `HELD`: the step must be made again; a spring is still
 too long."""
 
 

@@ -39,7 +39,7 @@ MOST = 2 * 3 * LEAF * LEAF + 9 * LEAF * LEAF
 class TouchingPairs(NamedTuple):
     """Pairs in a step: particles [P, 4]; a particle and a face, or two edges if `edges` [P] is 1.
 
-    normals: from the nearest point of the second to that of the first at the start [P, 3].
+    normals: from the nearest point of the second to the nearest of the first at the start [P, 3].
     starts: distance at the start [m], [P].
     """
 

@@ -23,7 +23,7 @@ DEFAULT_SOLVER = "xpbd"
 def solver(name: str = DEFAULT_SOLVER, **options: Any) -> Solver:
     """A solver by its name: `solver("pbd", passes=8)`.
 
-    The default is that of `simulate`, `MovingCloth.begin`, `World` and `Settings`.
+    `simulate`, `MovingCloth.begin`, `World` and `Settings` have the same default.
 
     name: one of SOLVERS.
     options: fields of its class by name.

@@ -198,7 +198,7 @@ class SolverXPBD(KernelSolver):
 
 @lru_cache(maxsize=8)
 def _remembered(solver: SolverXPBD, cloth: bytes, dt: float) -> SolverState:
-    """The plan of a pickled cloth; that of a banner takes a third of the time of its picture."""
+    """The plan of a pickled cloth; a banner's takes a third of the time of its picture."""
     return solver._planned(pickle.loads(cloth), dt)
 
 
@@ -260,7 +260,7 @@ def turns_a_step(compliance: Array, w: Array, dt: float, substeps: int) -> NDArr
 
 
 def bending_turns(cloth: Cloth, dt: float, substeps: int) -> tuple[int, BendingStep]:
-    """Bending acts before the first of every so many substeps, by this step."""
+    """After how many substeps bending acts again, before the first of them, and its step."""
     every = max(1, substeps // max(1, bending_substeps(cloth, dt)))
     time = dt / -(-substeps // every)
     return every, bending_step(cloth.bending, cloth.inv_mass, time)

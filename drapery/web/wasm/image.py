@@ -23,7 +23,7 @@ SLOT = 8
 FIRST_SLOT = 2 * SLOT
 """Bytes before the first argument: room for the result of a kernel, then for an error."""
 ALIGNED = 64
-"""Arrays begin at multiples of so many bytes."""
+"""Arrays begin at multiples of this number of bytes."""
 
 _typeof: Any = numba.typeof
 _types: Any = types
