@@ -3,6 +3,8 @@
 Each function makes a model to add to a scene, or to put in the place of one.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -41,7 +43,8 @@ def edges_model(
     """
     points, triangles = _points(mesh)
     edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    return line_model(points, np.unique(edges, axis=0), colour, camera, height, width)
+    lines = line_model(points, np.unique(edges, axis=0), colour, camera, height, width)
+    return replace(lines, name="edges")
 
 
 def springs_model(
@@ -64,7 +67,8 @@ def springs_model(
     # Flexion springs overlap structural ones, which are drawn last so that they are visible.
     order = np.argsort(-kinds.astype(np.int64), kind="stable")
     colours = KIND_COLOURS[np.minimum(kinds[order], len(KIND_COLOURS) - 1)]
-    return line_model(positions, pairs[order], colours, camera, height, width)
+    lines = line_model(positions, pairs[order], colours, camera, height, width)
+    return replace(lines, name="springs")
 
 
 def pins_model(positions: Vectors, inv_mass: Floats, camera: Camera, height: int) -> Model:
@@ -75,7 +79,8 @@ def pins_model(positions: Vectors, inv_mass: Floats, camera: Camera, height: int
     camera: of the picture.
     height: of the picture [pixels].
     """
-    return dot_model(positions[inv_mass == 0], PIN_RED, camera, height, 7.0)
+    dots = dot_model(positions[inv_mass == 0], PIN_RED, camera, height, 7.0)
+    return replace(dots, name="pins")
 
 
 def normals_model(
@@ -93,7 +98,8 @@ def normals_model(
     points = np.concatenate([feet, feet + length * mesh.normals.reshape(-1, 3)])
     numbers = np.arange(len(feet))
     segments = np.stack([numbers, numbers + len(feet)], axis=1)
-    return line_model(points, segments, colour, camera, height, 1.0)
+    lines = line_model(points, segments, colour, camera, height, 1.0)
+    return replace(lines, name="normals")
 
 
 def stretch_model(mesh: Mesh, stretch: Floats, limit: float = 0.1) -> Model:
@@ -106,7 +112,7 @@ def stretch_model(mesh: Mesh, stretch: Floats, limit: float = 0.1) -> Model:
     u = np.clip(stretch / (2 * limit) + 0.5, 0, 1)
     uvs = np.stack([u, np.full_like(u, 0.5)], axis=-1)
     shape = Mesh(mesh.positions, mesh.normals, mesh.triangles, uvs)
-    return Model(shape, (Material((TextureLayer(_ramp()),)),))
+    return Model(shape, (Material((TextureLayer(_ramp()),)),), name="stretch")
 
 
 def spring_stretch(positions: Vectors, pairs: Pairs, lengths: Floats) -> Floats:

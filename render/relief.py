@@ -57,7 +57,8 @@ def _relieved(model: Model, light: Light) -> Model:
         _lit(model.materials[place], member, light)
         for place, member in zip(index, members, strict=True)
     )
-    return Model(mesh, materials, np.arange(len(members), dtype=np.int32))
+    index = np.arange(len(members), dtype=np.int32)
+    return replace(model, materials=materials, material_index=index)
 
 
 def _lit(material: Material, mesh: Mesh, light: Light) -> Material:

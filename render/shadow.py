@@ -63,6 +63,7 @@ def contact_shadow(
     return Model(
         _floor(middle, size / scale, floor + LIFT),
         (Material((TextureLayer(texels),), "blend", False),),
+        name="shadow",
     )
 
 

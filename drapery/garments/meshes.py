@@ -54,7 +54,8 @@ def read_stiff_mesh(each: GarmentMesh, folder: Path, texel: float) -> StiffMesh:
         except Exception:  # a file may give anything as a colour
             said = f"mesh {shown(str(each.file), 200)} has a broken material"
             raise OptionError(f"{said}; export it again") from None
-        models.append(Model(make_mesh(own, part.triangles, _drawn_uvs(part)), (material,)))
+        mesh = make_mesh(own, part.triangles, _drawn_uvs(part))
+        models.append(Model(mesh, (material,), name=f"mesh/{Path(each.file).stem}"))
     return StiffMesh(tuple(models), mesh_collider(placed, faces))
 
 

@@ -59,7 +59,12 @@ def play(parameters: BlockyParameters, clip: Clip) -> Iterator[PictureGrid]:
     for state in flag.motion(clip, wind, settle=2 * LOOP):
         smooth = piece, state.positions[0]
         shapes = smooth, boards(*smooth, steps=p.steps)
-        models = [ClothModel(each.mesh(at), flag.materials, thin=(each, at)) for each, at in shapes]
+        models = [
+            ClothModel(each.mesh(at), flag.materials, thin=(each, at), name="banner/cloth")
+            for each, at in shapes
+        ]
         if p.pixel_snap:
-            models += [ClothModel(voxels(*shape), flag.materials) for shape in shapes]
+            models += [
+                ClothModel(voxels(*shape), flag.materials, name="banner/cloth") for shape in shapes
+            ]
         yield PictureGrid(tuple(backdrop.scene([model]) for model in models), labels[: len(models)])

@@ -29,7 +29,11 @@ def exploded_view(banner: Banner, packs: Packs, settings: Settings) -> Scene:
         ground,
         *(Material((TextureLayer(texels, tint),), "blend") for texels, tint in layers),
     ]
-    models = tuple(Model(_sheet(GAP * i), (material,)) for i, material in enumerate(materials))
+    names = "cloth", *(f"layer/{number}" for number in range(1, len(materials)))
+    models = tuple(
+        Model(_sheet(GAP * i), (material,), name=name)
+        for i, (material, name) in enumerate(zip(materials, names, strict=True))
+    )
     corners = np.concatenate([model.mesh.positions for model in models])
     width, height = settings.size
     camera = frame_view(settings.view, corners, width / height)

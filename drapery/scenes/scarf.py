@@ -54,7 +54,7 @@ def play(parameters: ScarfParameters, clip: Clip) -> Iterator[Scene]:
         drawn = in_material(sewn, column, SheetMapping())
         worn.append((drawn, tail_states(parameters, sewn, gait, clip)))
     box = upright(box_mesh(COLLAR, COLLAR_SHEET), TEXEL, (0, 0, 0))
-    collar = Model(box, (squares([woven[0][:16, :16]], 3, 1),))
+    collar = Model(box, (squares([woven[0][:16, :16]], 3, 1),), name="collar")
     return walk_scenes(parameters.skin, gait, clip, worn, tail=1.3, lifted=(collar,))
 
 

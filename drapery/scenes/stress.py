@@ -50,7 +50,8 @@ def play(parameters: StressParameters, clip: Clip) -> Iterator[Scene]:
     backdrop = framing(CORNER, places[:, None] + np.array(ROOM), clip.size)
     for positions in positions_of(parameters, clip, places):
         placed = (positions + places[:, None]).astype(np.float32)
-        yield backdrop.scene([ClothModel(cover_crowd(shell, placed, SCALE), materials, numbers)])
+        meshes = cover_crowd(shell, placed, SCALE)
+        yield backdrop.scene([ClothModel(meshes, materials, numbers, name="banner/cloth")])
 
 
 def positions_of(parameters: StressParameters, clip: Clip, places: Array) -> Iterator[Array]:

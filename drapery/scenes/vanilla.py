@@ -58,7 +58,7 @@ def _banners(p: VanillaParameters, packs: Packs, clip: Clip) -> Iterator[list[Sc
     flag = hang_flags((BLOCK,), (5, 9), (p.design,), packs)
     for frame, state in enumerate(flag.motion(clip, looped_wind(p.wind, p.seed), settle=2 * LOOP)):
         board = stiff_flag("standing", sway_phase(p.block, frame / clip.fps))
-        stiff = ClothModel(moved(board, np.array(BLOCK.cell)), flag.materials)
+        stiff = ClothModel(moved(board, np.array(BLOCK.cell)), flag.materials, name="banner/flag")
         yield [backdrop.scene([each]) for each in (stiff, flag.model(state))]
 
 
@@ -70,7 +70,7 @@ def _capes(p: VanillaParameters, packs: Packs, clip: Clip) -> Iterator[list[Scen
     backdrop = Backdrop(camera(size), size)
     for frame, state in enumerate(cape_states(own, sewn, gait, clip)):
         board = moved(stiff_cape(cape_lean(p.speed, frame / clip.fps)), gait.raised(state.time))
-        stiff = ClothModel(board, (sewn.pieces[0].material_at(0.0),))
+        stiff = ClothModel(board, (sewn.pieces[0].material_at(0.0),), name="cape")
         figure = walker(gait, state.time, skin, causeway)
         capes = (stiff, *sewn.models(state.positions[0]))
         yield [backdrop.scene((*figure, each)) for each in capes]

@@ -55,5 +55,5 @@ def wired(
         if springs
         else edges_model(sheet, camera, height, width=LINE)
     )
-    faces = () if material is None else (Model(sheet, (material,)),)
+    faces = () if material is None else (Model(sheet, (material,), name="cloth"),)
     return (*faces, lines, pins_model(positions, cloth.inv_mass, camera, height))

@@ -160,7 +160,7 @@ class Staging:
     def _grounded(self, part: Part) -> Model:
         """A part of the ground: a wall turns with its banner, the block below does not."""
         mesh = self.turned(part.mesh) if self.settings.placement == "wall" else part.mesh
-        return Model(mesh, (part.material_at(0.0),))
+        return Model(mesh, (part.material_at(0.0),), name=part.name)
 
 
 def floor_under(meshes: Sequence[Mesh]) -> float:

@@ -89,7 +89,7 @@ def sea(half: int, level: float) -> Model:
         pairs.reshape(-1, 3),
         np.tile(CORNERS, (count, 1)),
     )
-    return Model(mesh, (_water(),))
+    return Model(mesh, (_water(),), name="water")
 
 
 def _water() -> Material:
@@ -122,4 +122,4 @@ def shadow(centre: tuple[float, float], radius: float, height: float = 0.0) -> M
         FLAT,
         CORNERS,
     )
-    return Model(mesh, (Material((TextureLayer(texels),), "blend", lit=False),))
+    return Model(mesh, (Material((TextureLayer(texels),), "blend", lit=False),), name="shadow")

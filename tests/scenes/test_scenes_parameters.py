@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from drapery.errors import DraperyError, OptionError
+from drapery.render.scene import Scene
 from drapery.scenes.catalogue import Clip, find_scene, scene_names
 from drapery.scenes.parameters import SceneParameters
 
@@ -49,6 +50,9 @@ def played(name: str, **values: Any) -> None:
     given = {f.name: getattr(small, f.name) for f in fields(small)} | values
     pictures = list(scene.play(type(small)(**given), CLIP))
     assert len(pictures) == CLIP.count
+    scenes = [each for one in pictures for each in getattr(one, "pictures", (one,))]
+    models = [model for each in scenes if isinstance(each, Scene) for model in each.models]
+    assert all(model.name for model in models)  # in 3-D files
 
 
 @pytest.mark.parametrize("name", scene_names())
