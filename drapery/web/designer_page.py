@@ -5,12 +5,21 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from drapery.banner import game_titles
-from drapery.packs import open_packs
+from drapery.banner import Banner, game_titles
+from drapery.packs import Packs, open_packs
 from drapery.settings import Settings
 from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, WEB, beside, bundled_module
-from drapery.web.page import banner_files, check_package, kernel_file, write_files
+from drapery.web.page import (
+    ARMS,
+    banner_files,
+    check_package,
+    kernel_file,
+    posed_player,
+    seen_settings,
+    write_files,
+)
 from drapery.web.pattern_words import search_words
+from drapery.web.scene_file import scene_bytes
 from drapery.web.tables import languages
 
 MODULE = "drapery-designer.js"
@@ -30,10 +39,19 @@ def write_designer(folder: Path, settings: Settings) -> None:
 
 def _files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     packs = open_packs(settings.packs, format=settings.format)
-    files = designer_files(dict(banner_files(packs, settings)))
+    files = designer_files(dict(banner_files(packs, settings)) | dict(wearers(packs, settings)))
     yield from files.items()
     yield from module_files(files)
     yield PAGE, (WEB / "designer.html").read_bytes()
+
+
+def wearers(packs: Packs, settings: Settings) -> Iterator[tuple[str, bytes]]:
+    """The names and contents of scenes of a player with both arms, whose skin and cape the
+    designer replaces. It loads one of them once a skin is dropped."""
+    for arms in ARMS:
+        player = posed_player("cape", "stand", arms, overlay="whole").with_design(Banner())
+        seen = seen_settings(player, settings)
+        yield f"wearer{'-slim' if arms == 'slim' else ''}.bin", scene_bytes(player, packs, seen)
 
 
 def designer_files(scenes: Mapping[str, bytes]) -> dict[str, bytes]:

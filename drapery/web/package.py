@@ -54,7 +54,8 @@ def write_component(folder: Path, settings: Settings) -> None:
 def _files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     packs = open_packs(settings.packs, format=settings.format)
     scenes, players = dict(banner_files(packs, settings)), dict(_players(packs, settings))
-    own = designer_page.designer_files(scenes)
+    players |= designer_page.wearers(packs, settings)
+    own = designer_page.designer_files(scenes)  # inline, without what is loaded for a skin alone
     files = own | players | kernel_file(scenes | players)
     yield from files.items()
     yield MODULE, bundled_module(places=beside(files)).encode()

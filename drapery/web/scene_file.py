@@ -181,12 +181,15 @@ def _garment_scene(
         header["moving"].append(
             [0, runs[0][0], sum(count for _, count in runs), "figure", "figureLight"]
         )
-        first_layers = arrays["materials"].reshape(-1, 4)[:, 0]
-        shown = first_layers[arrays["vertexMaterials"]].tolist()
+        shown = arrays["materials"].reshape(-1, 4)[arrays["vertexMaterials"], :2].tolist()
+        layers = [range(first, first + count) for first, count in shown]
         skin, cape = texture_areas(worn)
         header["textures"] = {
-            "skin": {"shown": [shown[runs[0][0]]], "area": skin},
-            "cape": {"shown": [shown[start] for start, _ in header["grip"]], "area": cape},
+            "skin": {"shown": [*layers[runs[0][0]]], "area": skin},
+            "cape": {
+                "shown": [n for start, _ in header["grip"] for n in layers[start]],
+                "area": cape,
+            },
         }
     return scene, played_garment(worn)
 

@@ -208,17 +208,18 @@ def test_a_shield_is_drawn_as_a_shield(chromium: Any, site: str) -> None:
     assert run(chromium, f"{banner}.getAttribute('kind')") == "standing"
 
 
-DROP = """
+DROPPED = """
 const [root, name, text, done] = arguments;
 const bytes = Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
 const dataTransfer = new DataTransfer();
 dataTransfer.items.add(new File([bytes], name));
 root.querySelector(".app").dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
+"""
+DROP = f"""{DROPPED}
 const told = root.querySelector(".pack");
-const seen = () => {
-  if (told.textContent) done([told.textContent, told.matches(".fault")]);
-  else requestAnimationFrame(seen);
-};
+const seen = () => told.textContent
+  ? done([told.textContent, told.matches(".fault")])
+  : requestAnimationFrame(seen);
 told.textContent = "";
 seen();
 """
@@ -229,7 +230,7 @@ const mean = (canvas, size) => {
   context.drawImage(canvas, ...size, 0, 0, 1, 1);
   return [...context.getImageData(0, 0, 1, 1).data].slice(0, 3);
 };
-const live = root.querySelector("drapery-banner").shadowRoot.querySelector("canvas");
+const live = root.querySelector(".sky > :first-child").shadowRoot.querySelector("canvas");
 const middle = [live.width / 2 - 2, live.height / 2 - 2, 4, 4];
 const face = root.querySelector('[data-pattern="creeper"] canvas');
 done([mean(face, [4, 4, 2, 2]), [face.width, face.height], mean(live, middle)]);
@@ -434,3 +435,37 @@ def test_the_package_has_types_and_no_sources_of_ours(site: str, tmp_path: Path)
 
     with urlopen(f"{site}/drapery-designer.d.ts") as answer:
         assert b"class DraperyDesigner" in answer.read()
+
+
+def test_a_dropped_skin_shows_a_player_with_the_design_as_its_cape(
+    chromium: Any, site: str
+) -> None:
+    open_designer(chromium, f"{site}/#red,square_top_left:red")
+    root, shown = run(chromium, ROOT), f"{ROOT}.querySelector('.sky').firstChild"
+    loaded = "performance.getEntriesByType('resource').map((each) => each.name.split('/').at(-1))"
+
+    def drop(name: str, data: bytes) -> None:
+        chromium.execute_script(DROPPED, root, name, base64.b64encode(data).decode())
+
+    def told() -> str:
+        return str(run(chromium, f"{ROOT}.querySelector('.pack').textContent"))
+
+    def middle() -> list[int]:
+        colours: list[list[int]] = chromium.execute_async_script(COLOURS, root)
+        return colours[2]
+
+    drop("small.png", sheet(40, 0, 0, 255, 255))
+    wait_until(lambda: told().startswith("small.png is 40 x 40 px; use 64 x 64"))
+    assert run(chromium, f"{shown}.localName") == "drapery-banner"
+    assert "wearer.bin" not in run(chromium, loaded)
+    drop("me.png", sheet(64, 0, 0, 255, 255))
+    wait_until(lambda: told() == "me.png: a player wears the design as a cape.")
+    assert run(chromium, f"{shown}.localName") == "drapery-wearer"
+    wait_until(lambda: middle()[0] > 100 > 2 * middle()[1])
+    assert "wearer.bin" in run(chromium, loaded)
+    press(chromium, '[data-dye="lime"]')
+    press(chromium, '[data-pattern="base"]')
+    wait_until(lambda: middle()[1] > 120 > middle()[0])
+    press(chromium, ".bare")
+    assert run(chromium, f"{shown}.localName") == "drapery-banner"
+    assert told() == ""

@@ -15,7 +15,11 @@ export async function readTexture(name, address) {
   await image.decode().catch(() => {
     throw new Error(`${shown} cannot be loaded; use a PNG file that this page may read`);
   });
-  const { naturalWidth: width, naturalHeight: height } = image;
+  return pixelsOfSkin(image, image.naturalWidth, image.naturalHeight, shown);
+}
+
+// The pixels of a picture that has the size of skins and capes; shown: what an error calls it.
+export function pixelsOfSkin(image, width, height, shown) {
   if (!width || width % SIDE || width > 1024 || (height !== width && 2 * height !== width)) {
     throw new Error(`${shown} is ${width} x ${height} px; use 64 x 64 or 64 x 32, or a multiple`);
   }

@@ -16,12 +16,14 @@ import { MOTION, History, shownOf, workOf, writeHash, writeShorthand } from "./m
 import { readPack } from "./pack.js";
 import { readHash, readPasted } from "./pasted.js";
 import { LANGUAGES, STYLES } from "./tables.js";
+import { DraperyWearer, capeOf, readSkin } from "./wearer.js";
 
 const START = "yellow gradient:red gradient_up:magenta flower:white circle:orange curly_border:red";
 const VIEWS = ["front", "back", "iso", "hero"];
 /** @type {("fabric" | "view" | "daylight")[]} */
 const CHOSEN = ["fabric", "view", "daylight"]; // which a package has its own of
 const OF_CLOTH = ["wind", "direction", "fabric", "placement"]; // what no shield has
+const OF_WEARER = ["wind", "direction", "daylight"];
 const BREEZE = { ...MOTION, wind: 6 }; // in which an editor starts
 /** @type {Record<string, string>} */
 const FOUND = { globe: "fromCartographer", piglin: "fromBastion", flow: "fromTrial", guster: "fromTrial" }; // pattern items
@@ -49,6 +51,9 @@ export class DraperyDesigner extends Element {
   #version = VERSIONS[0];
   /** @type {Awaited<ReturnType<typeof readPack>> | null} */
   #pack = null;
+  /** @type {ImageData | null} */
+  #skin = null; // of the player that wears the design
+  #worn = ""; // the design that it wears
   /** @type {Record<string, any>} */
   #ui = {};
   #built = false;
@@ -206,7 +211,8 @@ export class DraperyDesigner extends Element {
 
   #stage() {
     const { say } = this.#editor;
-    const banner = Object.assign(new DraperyBanner(), { pack: this.#pack });
+    const banner = this.#skin ? new DraperyWearer() : new DraperyBanner();
+    banner.pack = this.#skin ? { skin: this.#skin, cape: this.#cape() } : this.#pack;
     banner.append(this.#editor.parts.flat);
     const fault = make("p", { class: "fault", role: "alert", hidden: true });
     banner.addEventListener("drapery-error", (event) => {
@@ -249,9 +255,10 @@ export class DraperyDesigner extends Element {
     const field = make("input", { type: "text", class: "paste", placeholder: say("pasteHint"), "aria-label": say("paste"), "aria-describedby": "paste-fault", spellcheck: false, autocomplete: "off",
       onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "Enter" && this.#read(field.value) });
     const wrong = make("p", { class: "fault", id: "paste-fault", role: "alert", hidden: true });
-    const chosen = make("input", { type: "file", accept: ".zip", hidden: true, "aria-label": say("openPack"), onchange: () => this.#take(chosen.files[0]) });
+    const chosen = make("input", { type: "file", accept: ".zip,.png", hidden: true, "aria-label": say("openPack"), onchange: () => this.#take(chosen.files[0]) });
     const pack = make("p", { class: "hint pack", role: "status" });
     const without = make("button", { type: "button", class: "without", hidden: !this.#pack, onclick: () => this.#wear(null, "") }, say("withoutPack"));
+    const bare = make("button", { type: "button", class: "bare", hidden: !this.#skin, onclick: () => this.#dress(null) }, say("withoutSkin"));
     const openPack = make("button", { type: "button", onclick: () => chosen.click() }, say("openPack"));
     const read = make("button", { type: "button", onclick: () => this.#read(field.value) }, say("read"));
     Object.assign(this.#ui, { version, command, about, copy, field, wrong, loom, film, pack, without });
@@ -261,7 +268,7 @@ export class DraperyDesigner extends Element {
         make("div", { class: "row" }, version, copy), command, about,
         make("div", { class: "row" }, link, png, film, embed)),
       make("div", { class: "panel" }, make("h2", {}, say("paste")), make("div", { class: "row" }, field, read), wrong,
-        make("div", { class: "row" }, openPack, without, chosen), pack), loom);
+        make("div", { class: "row" }, openPack, without, bare, chosen), pack), loom);
   }
 
   #versionTitle(/** @type {string} */ id) {
@@ -287,11 +294,13 @@ export class DraperyDesigner extends Element {
     const ui = this.#ui;
     const { motion } = work;
     ui.fault.hidden = true;
-    for (const [name, value] of Object.entries(this.#attributes()))
+    const isWorn = ui.banner instanceof DraperyWearer;
+    if (isWorn && this.#worn !== this.design) ui.banner.pack = { skin: this.#skin, cape: this.#cape() };
+    for (const [name, value] of Object.entries(this.#attributes()).filter(([each]) => !isWorn || OF_WEARER.includes(each)))
       if (ui.banner.getAttribute(name) !== value) ui.banner[name] = value;
     for (const [name, control] of Object.entries(ui.motion)) control.show(motion[/** @type {keyof Motion} */ (name)]);
     for (const name of OF_CLOTH) ui.motion[name].whole.hidden = work.kind === "shield";
-    ui.pause.hidden = ui.film.disabled = work.kind === "shield";
+    ui.pause.hidden = ui.film.disabled = work.kind === "shield" && !isWorn;
     ui.sky.style.setProperty("--day", String(motion.daylight));
     this.#showPause();
     this.#showCommand();
@@ -383,7 +392,7 @@ export class DraperyDesigner extends Element {
     const { banner } = this.#ui;
     const { kind } = this.#editor.work;
     try {
-      if (kind === "shield" || this.#pack) return this.#give(await banner.snapshot(), `${kind}.png`);
+      if (kind === "shield" || this.#pack || this.#skin) return this.#give(await banner.snapshot(), `${kind}.png`);
       const canvas = make("canvas");
       drawPixels(canvas, await banner.picture());
       this.#give(await new Promise((done) => canvas.toBlob(done)), "banner.png");
@@ -432,9 +441,10 @@ export class DraperyDesigner extends Element {
     this.#take(file);
   };
 
-  // Show all pictures with the textures of a pack.
+  // Show all pictures with the textures of a pack, or the player of a skin.
   async #take(/** @type {File} */ file) {
     try {
+      if (file.name.toLowerCase().endsWith(".png")) return this.#dress(await readSkin(file), this.#editor.say("skinShown", { name: short(file.name) }));
       const pack = await readPack(file);
       const some = (/** @type {string[]} */ names) => names.slice(0, MOST_NAMED).join(", ") + (names.length > MOST_NAMED ? ` + ${names.length - MOST_NAMED}` : "");
       const told = [this.#editor.say("packShown", { name: short(file.name), count: Object.keys(pack.banner).length + Object.keys(pack.shield).length })];
@@ -446,10 +456,25 @@ export class DraperyDesigner extends Element {
     }
   }
 
+  // Show a player in a skin, who wears the design; null for the banner again.
+  #dress(/** @type {ImageData | null} */ skin, told = "") {
+    this.#skin = skin;
+    this.#build();
+    this.#ui.banner.alt = told || null;
+    this.#tellPack(told, false);
+    this.#editor.show();
+  }
+
+  #cape() {
+    const { work, every } = this.#editor;
+    this.#worn = this.design;
+    return capeOf(/** @type {Faces} */ (every.banner).small.face(shownOf(work)));
+  }
+
   async #wear(/** @type {typeof this.#pack} */ pack, /** @type {string} */ told) {
     this.#pack = pack;
     await Promise.all(["banner", "shield"].map((kind) => this.#editor.open(kind)));
-    this.#ui.banner.pack = pack;
+    if (!this.#skin) this.#ui.banner.pack = pack;
     this.#tellPack(told, false);
     this.#editor.show();
   }
