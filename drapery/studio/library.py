@@ -178,6 +178,8 @@ class Library:
             with Session(self._engine) as session, session.begin():
                 yield session
         except DBAPIError as error:
+            raise OutputError(f"library {self.path}: {_reason(error.orig)}") from None
+        except UnicodeDecodeError as error:  # in place of an error of SQLite
             raise OutputError(f"library {self.path}: {_reason(error)}") from None
         except SQLAlchemyError as error:
             reason = f"it cannot be used ({type(error).__name__}); move it away"
@@ -242,9 +244,9 @@ _REASONS = {
 }
 
 
-def _reason(error: DBAPIError) -> str:
-    cause = sqlite_cause(error.orig)
-    first = _REASONS.get(cause, f"SQLite refuses it ({sqlite_name(error.orig)}); repair that")
+def _reason(error: BaseException | None) -> str:
+    refused = f"SQLite refuses it ({sqlite_name(error)}); repair that"
+    first = _REASONS.get(sqlite_cause(error), refused)
     return f"{first}, or name another file with --library"
 
 

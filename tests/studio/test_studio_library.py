@@ -232,6 +232,15 @@ def test_a_file_cut_short(library: Library) -> None:
     assert "\n" not in str(fault.value)
 
 
+def test_a_library_whose_schema_is_no_text_is_damaged(library: Library) -> None:
+    """SQLite quotes what it cannot read, and Python cannot decode that message."""
+    library.add(design(title="a"))
+    whole = library.path.read_bytes()
+    library.path.write_bytes(whole.replace(b"\ttitle VARCHAR", b"\t'\x80tle VARCHAR"))
+    with pytest.raises(OutputError, match="damaged or not a library"):
+        Library(library.path).dump()
+
+
 def test_a_spoilt_row_does_not_hide_the_others(library: Library) -> None:
     library.add(design(title="a"))
     spoilt = library.add(design(title="b"))
