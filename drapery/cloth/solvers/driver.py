@@ -27,7 +27,14 @@ from drapery.cloth.state import State
 from drapery.cloth.strain import HELD_TO, NEVER, StrainLimit, limit_strain
 from drapery.cloth.wind import Gusts
 from drapery.errors import OptionError, counted
-from drapery.jit import address_of, call_by_address, called_next, entry_point, kernel
+from drapery.jit import (
+    address_of,
+    borrowing_kernel,
+    call_by_address,
+    called_next,
+    entry_point,
+    kernel,
+)
 from drapery.mesh import Array
 
 MAX_SUBSTEPS = MAX_SWEEPS = MAX_THREADS = 1000
@@ -441,13 +448,6 @@ def wind_lanes(batch: Any, body: Any, width: Any) -> Any:
     return wind, simd.empty_lanes(18, width, batch.x)
 
 
-@kernel
-def add_loads(g: Any, y: Any, u: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any) -> None:
-    """g += h · acceleration by winds, gravity, pushes and drag, at places y and velocities u."""
-    add_winds_at(batch.add_winds, (g, y, u, body, wind, batch.gusts, h))
-    fall(g, body.inv_mass, batch.numbers, batch.push, h, start)
-
-
 @entry_point
 def fall(g: Any, inv_mass: Any, numbers: Any, push: Any, h: Any, start: Any) -> None:
     """g += h (gravity + push), then implicit drag: the speed of a fall tends to g / drag."""
@@ -464,30 +464,96 @@ def fall(g: Any, inv_mass: Any, numbers: Any, push: Any, h: Any, start: Any) -> 
             g[row, lane] = (g[row, lane] + gain) * slow
 
 
-@kernel
-def kick(u: Any, y: Any, g: Any, body: Any, batch: Any, wind: Any, h: Any, start: Any) -> None:
-    """u += h · acceleration by springs and loads; g is overwritten."""
-    kernels.load_lanes(g, u, 0)
-    kernels.add_spring_velocities(g, y, body.springs, body.inv_mass, h)
-    kernels.bend(g, y, u, body.stencils, h, g.dtype.type(0), body.damping[0])
-    add_loads(g, y, u, body, batch, wind, h, start)
-    kernels.load_lanes(u, g, 0)
+class Block(NamedTuple):
+    """Lanes of a batch that are stepped together, L of them, and what a method needs of the batch:
+    each substep passes it on, and all of a batch is hundreds of words.
+
+    y, u: positions [m] and velocities [m/s], [3N, L]. g, old: scratch like these. wind: see `blow`.
+    work: scratch of `blow` and of the method. start: the first of the lanes in the batch. others:
+    see `Batch`.
+    """
+
+    y: Array
+    u: Array
+    g: Array
+    old: Array
+    wind: Array
+    work: Array
+    start: int
+    gusts: Gusts
+    numbers: Array
+    targets: Array
+    push: Array
+    residuals: Array
+    add_winds: int
 
 
 @kernel
-def load_block(batch: Any, body: Any, start: Any, last: Any) -> Any:
-    """The arrays of a block: positions, velocities, two like them, all winds, and scratch."""
+def advance_blocks(
+    first: Any,
+    last: Any,
+    plan: Any,
+    batch: Any,
+    steps: Any,
+    substeps: Any,
+    substep: Any,
+    options: Any,
+    scratch: Any = 0,
+) -> None:
+    """Steps of lanes first..last, a block at a time, with the wind of the start of each step and
+    contact at its end.
+
+    substep: a kernel (block, plan, h, number, options) that moves a block by h [s];
+    numbers count over all steps. options: of the method. scratch: rows that it needs in `work`.
+    """
+    body, h = plan.body, batch.x.dtype.type(batch.numbers[0])
+    for start in range(first, last, batch.width):
+        block = load_block(batch, body, start, last, scratch)
+        y, u = block.y, block.u
+        before = lanes_contact.begin_lanes(y, u, batch)
+        number, again = 0, False
+        while number < steps * substeps:
+            if number % substeps == 0:
+                time = batch.numbers[2] + number * batch.numbers[0]
+                blown = block.wind, y, body.controls, batch.gusts, start, time, block.work
+                blow_at(batch.blow, blown)
+            substep(block, plan, h, number, options)
+            number, again = lanes_contact.meet_substep(
+                y, u, before, batch, start, number, substeps, h, again
+            )
+        kernels.store_lanes(batch.new_x, y, start)
+        kernels.store_lanes(batch.new_v, u, start)
+
+
+@kernel
+def load_block(batch: Any, body: Any, start: Any, last: Any, scratch: Any) -> Any:
+    """The block that begins at a lane. scratch: rows of `work` that its method needs."""
     rows, width = batch.x.shape[0], min(batch.width, last - start)
     y, u = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
     g, old = simd.empty_lanes(rows, width, batch.x), simd.empty_lanes(rows, width, batch.x)
     wind, work = wind_lanes(batch, body, width)
+    if scratch > work.shape[0]:
+        work = simd.empty_lanes(scratch, width, batch.x)
     kernels.load_lanes(y, batch.x, start)
     kernels.load_lanes(u, batch.v, start)
-    return y, u, g, old, wind, work
+    given = batch.gusts, batch.numbers, batch.targets, batch.push, batch.residuals, batch.add_winds
+    return Block(y, u, g, old, wind, work, start, *given)
 
 
-@kernel
-def store_block(batch: Any, y: Any, u: Any, start: Any) -> None:
-    """Store the positions and velocities of a block in the batch's new ones."""
-    kernels.store_lanes(batch.new_x, y, start)
-    kernels.store_lanes(batch.new_v, u, start)
+@borrowing_kernel
+def kick(block: Any, body: Any, h: Any) -> None:
+    """u += h · acceleration by springs and loads; g is overwritten."""
+    y, u, g = block.y, block.u, block.g
+    kernels.load_lanes(g, u, 0)
+    kernels.add_spring_velocities(g, y, body.springs, body.inv_mass, h)
+    kernels.bend(g, y, u, body.stencils, h, g.dtype.type(0), body.damping[0])
+    add_loads(block, body, h)
+    kernels.load_lanes(u, g, 0)
+
+
+@borrowing_kernel
+def add_loads(block: Any, body: Any, h: Any) -> None:
+    """g += h · acceleration by winds, gravity, pushes and drag, at places y and velocities u."""
+    y, u, g = block.y, block.u, block.g
+    add_winds_at(block.add_winds, (g, y, u, body, block.wind, block.gusts, h))
+    fall(g, body.inv_mass, block.numbers, block.push, h, block.start)

@@ -18,12 +18,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import kernels, simd
+from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments, stretch_limits
 from drapery.cloth.bending import Stencils, force_stencils
 from drapery.cloth.checks import check_count, check_number
 from drapery.cloth.cloth import Cloth
-from drapery.cloth.contact import lanes_contact
 from drapery.cloth.kernels import direction
 from drapery.cloth.simd import fill, lane_count, load, maximum, sqrt, store
 from drapery.cloth.solvers.base import check_step
@@ -34,11 +33,9 @@ from drapery.cloth.solvers.driver import (
     KernelSolver,
     SolverState,
     add_loads,
-    blow_at,
+    advance_blocks,
     body_of,
     check_common,
-    load_block,
-    store_block,
 )
 from drapery.cloth.strain import allowed_stretch, strain_limit
 from drapery.errors import counted
@@ -344,6 +341,34 @@ def lead_pins(
             dv[at, lane] = (goal - y[at, lane]) / h - u[at, lane]
 
 
+@kernel
+def _substep(block: Any, plan: Any, h: Any, number: Any, options: Any) -> None:
+    """Solve for the change of velocities, then move by the new ones."""
+    y, u, old, body, bends = block.y, block.u, block.old, plan.body, plan.bends
+    b, dv, (rows, lanes), (iterations, tolerance) = block.g, old, y.shape, options
+    scratch, blocks = block.work[: 4 * rows].reshape((4, rows, lanes)), block.work[4 * rows :]
+    residuals = block.residuals[block.start : block.start + lanes]
+    kernels.load_lanes(b, u, 0)
+    add_loads(block, body, h)
+    for row in range(rows):
+        for lane in range(lanes):
+            b[row, lane] = plan.mass[row // 3] * (b[row, lane] - u[row, lane])
+    linearise(blocks, b, y, u, body.springs, plan.damping[0], h)
+    kernels.bend(b, y, u, bends, h, y.dtype.type(0), h + body.damping[0])
+    lead_pins(dv, y, u, body.pins, block.targets, number, block.start, h)
+    matrix = Matrix(plan.mass, blocks, body.springs, bends, h * (h + body.damping[0]))
+    solve(dv, b, matrix, iterations, tolerance, residuals, scratch)
+    if body.pins.size == 0:
+        keep_momentum(dv, b, plan.mass)
+    for row in range(rows):
+        for lane in range(lanes):
+            u[row, lane] += dv[row, lane]
+    kernels.move(y, u, old, h)
+    kernels.place_pins(y, old, body.pins, block.targets, number, block.start)
+    kernels.shorten(y, plan.attachments)
+    kernels.set_velocities(u, y, old, h)
+
+
 @entry_point
 def _advance(
     first: Any,
@@ -355,43 +380,6 @@ def _advance(
     iterations: Any,
     tolerance: Any,
 ) -> None:
-    """Steps of lanes first..last, a block at a time."""
-    dtype, body = batch.x.dtype, plan.body
-    h, damping = dtype.type(batch.numbers[0]), plan.damping[0]
-    rows, springs, bends = batch.x.shape[0], plan.body.springs, plan.bends
-    for start in range(first, last, batch.width):
-        y, u, g, old, wind, work = load_block(batch, body, start, last)
-        before = lanes_contact.begin_lanes(y, u, batch)
-        lanes = y.shape[1]
-        residuals = batch.residuals[start : start + lanes]
-        b, dv = simd.empty_lanes(rows, lanes, batch.x), simd.empty_lanes(rows, lanes, batch.x)
-        scratch = simd.empty_lanes(4 * rows, lanes, batch.x).reshape((4, rows, lanes))
-        blocks = simd.empty_lanes(5 * springs.rest.size, lanes, batch.x)
-        step, again = 0, False
-        while step < steps * substeps:
-            if step % substeps == 0:
-                time = batch.numbers[2] + step * batch.numbers[0]
-                blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
-            kernels.load_lanes(g, u, 0)
-            add_loads(g, y, u, body, batch, wind, h, start)
-            for row in range(rows):
-                for lane in range(lanes):
-                    b[row, lane] = plan.mass[row // 3] * (g[row, lane] - u[row, lane])
-            linearise(blocks, b, y, u, springs, damping, h)
-            kernels.bend(b, y, u, bends, h, dtype.type(0), h + body.damping[0])
-            lead_pins(dv, y, u, body.pins, batch.targets, step, start, h)
-            matrix = Matrix(plan.mass, blocks, springs, bends, h * (h + body.damping[0]))
-            solve(dv, b, matrix, iterations, tolerance, residuals, scratch)
-            if body.pins.size == 0:
-                keep_momentum(dv, b, plan.mass)
-            for row in range(rows):
-                for lane in range(lanes):
-                    u[row, lane] += dv[row, lane]
-            kernels.move(y, u, old, h)
-            kernels.place_pins(y, old, body.pins, batch.targets, step, start)
-            kernels.shorten(y, plan.attachments)
-            kernels.set_velocities(u, y, old, h)
-            step, again = lanes_contact.meet_substep(
-                y, u, before, batch, start, step, substeps, h, again
-            )
-        store_block(batch, y, u, start)
+    """Steps of lanes first..last."""
+    given, scratch = (iterations, tolerance), 4 * batch.x.shape[0] + 5 * plan.body.springs.rest.size
+    advance_blocks(first, last, plan, batch, steps, substeps, _substep, given, scratch)

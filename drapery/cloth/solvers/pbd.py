@@ -23,7 +23,6 @@ from drapery.cloth.attachments import Attachments, stretch_limits
 from drapery.cloth.bending import BendingStep, bending_step
 from drapery.cloth.checks import check_choice, check_count, check_number, check_three
 from drapery.cloth.cloth import STRUCTURAL, Cloth
-from drapery.cloth.contact import lanes_contact
 from drapery.cloth.kernels import add, direction
 from drapery.cloth.order import outwards, pin_distances, sweep_order
 from drapery.cloth.simd import fill, lane_count, load, maximum, minimum, sqrt
@@ -35,15 +34,13 @@ from drapery.cloth.solvers.driver import (
     KernelSolver,
     SolverState,
     add_loads,
-    blow_at,
+    advance_blocks,
     body_of,
     check_common,
-    load_block,
     movable,
-    store_block,
 )
 from drapery.cloth.strain import allowed_stretch, strain_limit
-from drapery.jit import entry_point, kernel
+from drapery.jit import borrowing_kernel, entry_point, kernel
 from drapery.mesh import Array
 
 TOLERATED = 1.005
@@ -273,6 +270,25 @@ def damp(u: Any, keep: Any) -> None:
             u[row, lane] *= keep
 
 
+@borrowing_kernel
+def _substep(block: Any, plan: Any, h: Any, number: Any, options: Any) -> None:
+    """Move, then relax the constraints and shorten what is too long."""
+    y, u, g, old, body = block.y, block.u, block.g, block.old, plan.body
+    passes, sweeps = options
+    kernels.load_lanes(g, u, 0)
+    damp(g, plan.keep[0])
+    bend_time, damping = plan.bending_step.time[0], plan.bending_step.damping[0]
+    kernels.bend(g, y, u, body.stencils, bend_time, y.dtype.type(0), damping)
+    add_loads(block, body, h)
+    kernels.move(y, g, old, h)
+    kernels.place_pins(y, old, body.pins, block.targets, number, block.start)
+    for _ in range(passes):
+        relax(y, plan.constraints)
+    kernels.shorten(y, plan.attachments)
+    shorten_too_long(y, plan.springs, sweeps, block.work)
+    kernels.set_velocities(u, y, old, h)
+
+
 @entry_point
 def _advance(
     first: Any,
@@ -284,30 +300,5 @@ def _advance(
     passes: Any,
     sweeps: Any,
 ) -> None:
-    """Steps of lanes first..last, a block at a time."""
-    dtype, body = batch.x.dtype, plan.body
-    h = dtype.type(batch.numbers[0])
-    for start in range(first, last, batch.width):
-        y, u, g, old, wind, work = load_block(batch, body, start, last)
-        before = lanes_contact.begin_lanes(y, u, batch)
-        step, again = 0, False
-        while step < steps * substeps:
-            if step % substeps == 0:
-                time = batch.numbers[2] + step * batch.numbers[0]
-                blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
-            kernels.load_lanes(g, u, 0)
-            damp(g, plan.keep[0])
-            bend_time, damping = plan.bending_step.time[0], plan.bending_step.damping[0]
-            kernels.bend(g, y, u, body.stencils, bend_time, dtype.type(0), damping)
-            add_loads(g, y, u, body, batch, wind, h, start)
-            kernels.move(y, g, old, h)
-            kernels.place_pins(y, old, body.pins, batch.targets, step, start)
-            for _ in range(passes):
-                relax(y, plan.constraints)
-            kernels.shorten(y, plan.attachments)
-            shorten_too_long(y, plan.springs, sweeps, work)
-            kernels.set_velocities(u, y, old, h)
-            step, again = lanes_contact.meet_substep(
-                y, u, before, batch, start, step, substeps, h, again
-            )
-        store_block(batch, y, u, start)
+    """Steps of lanes first..last."""
+    advance_blocks(first, last, plan, batch, steps, substeps, _substep, (passes, sweeps))

@@ -15,25 +15,22 @@ from typing import Any, NamedTuple
 from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import FLEXION, Cloth
-from drapery.cloth.contact import lanes_contact
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     SHARED,
     ClothBody,
     KernelSolver,
     SolverState,
-    blow_at,
+    advance_blocks,
     body_of,
     check_common,
     chosen_substeps,
     half_shares,
     kick,
-    load_block,
     movable,
-    store_block,
 )
 from drapery.cloth.strain import allowed_stretch, strain_limit
-from drapery.jit import entry_point
+from drapery.jit import borrowing_kernel, entry_point
 
 
 class ProvotPlan(NamedTuple):
@@ -77,28 +74,22 @@ def listed_attachments(cloth: Cloth, limit: float) -> Attachments:
     return Attachments(pairs, cloth.spring_length[chosen] * limit, part_i, part_j)
 
 
+@borrowing_kernel
+def _substep(block: Any, plan: Any, h: Any, number: Any, options: Any) -> None:
+    """Euler's method, then sweeps over the springs that are too long."""
+    y, old, body = block.y, block.old, plan.body
+    (sweeps,) = options
+    kick(block, body, h)
+    kernels.move(y, block.u, old, h)
+    kernels.place_pins(y, old, body.pins, block.targets, number, block.start)
+    for _ in range(sweeps):
+        kernels.shorten(y, plan.attachments)
+    kernels.set_velocities(block.u, y, old, h)
+
+
 @entry_point
 def _advance(
     first: Any, last: Any, plan: Any, batch: Any, steps: Any, substeps: Any, sweeps: Any
 ) -> None:
-    """Steps of lanes first..last, a block at a time."""
-    dtype, body = batch.x.dtype, plan.body
-    h = dtype.type(batch.numbers[0])
-    for start in range(first, last, batch.width):
-        y, u, g, old, wind, work = load_block(batch, body, start, last)
-        before = lanes_contact.begin_lanes(y, u, batch)
-        step, again = 0, False
-        while step < steps * substeps:
-            if step % substeps == 0:
-                time = batch.numbers[2] + step * batch.numbers[0]
-                blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
-            kick(u, y, g, body, batch, wind, h, start)
-            kernels.move(y, u, old, h)
-            kernels.place_pins(y, old, body.pins, batch.targets, step, start)
-            for _ in range(sweeps):
-                kernels.shorten(y, plan.attachments)
-            kernels.set_velocities(u, y, old, h)
-            step, again = lanes_contact.meet_substep(
-                y, u, before, batch, start, step, substeps, h, again
-            )
-        store_block(batch, y, u, start)
+    """Steps of lanes first..last."""
+    advance_blocks(first, last, plan, batch, steps, substeps, _substep, (sweeps,))

@@ -20,7 +20,6 @@ from drapery.cloth import kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.checks import check_number
 from drapery.cloth.cloth import STRUCTURAL, Cloth
-from drapery.cloth.contact import lanes_contact
 from drapery.cloth.kernels import add, direction
 from drapery.cloth.simd import fill, lane_count, maximum, sqrt
 from drapery.cloth.solvers.base import check_step
@@ -29,18 +28,16 @@ from drapery.cloth.solvers.driver import (
     ClothBody,
     KernelSolver,
     SolverState,
-    blow_at,
+    advance_blocks,
     body_of,
     check_common,
     chosen_substeps,
     half_shares,
     kick,
-    load_block,
     movable,
-    store_block,
 )
 from drapery.cloth.strain import allowed_stretch, strain_limit
-from drapery.jit import entry_point, kernel
+from drapery.jit import borrowing_kernel, entry_point, kernel
 
 
 class VerletPlan(NamedTuple):
@@ -114,29 +111,24 @@ def shorten_together(y: Any, attachments: Any, sums: Any) -> None:
             y[row, lane] += sums[row, lane]
 
 
+@borrowing_kernel
+def _substep(block: Any, plan: Any, h: Any, number: Any, options: Any) -> None:
+    """Half a kick, a drift with the limit on stretch, half a kick."""
+    y, old, body = block.y, block.old, plan.body
+    half = y.dtype.type(block.numbers[0] / 2)
+    (sweeps,) = options
+    kick(block, body, half)
+    kernels.move(y, block.u, old, h)
+    kernels.place_pins(y, old, body.pins, block.targets, number, block.start)
+    for _ in range(sweeps):
+        shorten_together(y, plan.attachments, block.g)
+    kernels.set_velocities(block.u, y, old, h)
+    kick(block, body, half)
+
+
 @entry_point
 def _advance(
     first: Any, last: Any, plan: Any, batch: Any, steps: Any, substeps: Any, sweeps: Any
 ) -> None:
-    """Steps of lanes first..last, a block at a time."""
-    dtype, body = batch.x.dtype, plan.body
-    h, half = dtype.type(batch.numbers[0]), dtype.type(batch.numbers[0] / 2)
-    for start in range(first, last, batch.width):
-        y, u, g, old, wind, work = load_block(batch, body, start, last)
-        before = lanes_contact.begin_lanes(y, u, batch)
-        step, again = 0, False
-        while step < steps * substeps:
-            if step % substeps == 0:
-                time = batch.numbers[2] + step * batch.numbers[0]
-                blow_at(batch.blow, (wind, y, body.controls, batch.gusts, start, time, work))
-            kick(u, y, g, body, batch, wind, half, start)
-            kernels.move(y, u, old, h)
-            kernels.place_pins(y, old, body.pins, batch.targets, step, start)
-            for _ in range(sweeps):
-                shorten_together(y, plan.attachments, g)
-            kernels.set_velocities(u, y, old, h)
-            kick(u, y, g, body, batch, wind, half, start)
-            step, again = lanes_contact.meet_substep(
-                y, u, before, batch, start, step, substeps, h, again
-            )
-        store_block(batch, y, u, start)
+    """Steps of lanes first..last."""
+    advance_blocks(first, last, plan, batch, steps, substeps, _substep, (sweeps,))
