@@ -462,6 +462,8 @@ def test_a_dropped_skin_shows_a_player_with_the_design_as_its_cape(
     wait_until(lambda: told() == "me.png: a player wears the design as a cape.")
     assert run(chromium, f"{shown}.localName") == "drapery-wearer"
     wait_until(lambda: middle()[0] > 100 > 2 * middle()[1])
+    hidden = f"[...{ROOT}.querySelectorAll('.motion [hidden]')].filter((e) => !e.matches('.fault'))"
+    assert run(chromium, f"{hidden}.length") == 3, "fabric, placement, view"
     assert "wearer.bin" in run(chromium, loaded)
     press(chromium, '[data-dye="lime"]')
     press(chromium, '[data-pattern="base"]')

@@ -299,7 +299,7 @@ export class DraperyDesigner extends Element {
     for (const [name, value] of Object.entries(this.#attributes()).filter(([each]) => !isWorn || OF_WEARER.includes(each)))
       if (ui.banner.getAttribute(name) !== value) ui.banner[name] = value;
     for (const [name, control] of Object.entries(ui.motion)) control.show(motion[/** @type {keyof Motion} */ (name)]);
-    for (const name of OF_CLOTH) ui.motion[name].whole.hidden = work.kind === "shield";
+    for (const [name, { whole }] of Object.entries(ui.motion)) whole.hidden = isWorn ? !OF_WEARER.includes(name) : work.kind === "shield" && OF_CLOTH.includes(name);
     ui.pause.hidden = ui.film.disabled = work.kind === "shield" && !isWorn;
     ui.sky.style.setProperty("--day", String(motion.daylight));
     this.#showPause();
