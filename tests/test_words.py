@@ -26,14 +26,6 @@ INSTEAD = {
 }
 VAGUE = re.compile(r"\b(?:that(?:\s+#)?\s+of|so(?:\s+#)?\s+many|shall)\b", re.I)
 """Words in place of a noun, a number or the present tense."""
-NOT_YET = (
-    *("drapery.cloth.colliders.collision_world", "drapery.cloth.contact.lanes_contact"),
-    *("drapery.cloth.contact.safe_steps", "drapery.cloth.contact.smoothness"),
-    *("drapery.cloth.contact.touching_pairs", "drapery.cloth.strain"),
-    *("drapery.cloth.solvers.verlet", "drapery.render.soft", "drapery.render.soft.tiles"),
-    *("drapery.studio.page", "drapery.studio.routes", "drapery.studio.session"),
-)
-"""Modules that still have such words, most of them in kernels, which are compiled anew for each."""
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
@@ -50,8 +42,7 @@ def test_a_page_says_what_is(page: Path) -> None:
 def test_sources_name_what_they_mean() -> None:
     found = [
         f"{path.relative_to(ROOT)}:{text.count(chr(10), 0, match.start()) + 1}: {match[0]!r}"
-        for name, path in modules().items()
-        if name not in NOT_YET
+        for path in modules().values()
         for text in [path.read_text("utf-8")]
         for match in VAGUE.finditer(text)
     ]

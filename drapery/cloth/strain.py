@@ -119,8 +119,11 @@ def plane_squares(sheet: SheetLayout, limit: StrainLimit) -> Array:
 
 @kernel
 def excess_of_lanes(out: Any, y: Any, pairs: Any, squares: Any, lane: Any) -> None:
-    """For each lane of a register of y [3N, L], the largest square of a spring's length less that
-    of its longest one [m²], if that is above 0, into out [1, lanes]. squares: of these, [1, S]."""
+    """For each lane of a register of y [3N, L], the largest square of a spring's length less the
+    square of its limit [m²], if it is above 0, into out [1, lanes].
+
+    squares: of the limits [m²], [1, S].
+    """
     most = fill(y.dtype.type(0))
     for s in range(pairs.shape[0]):
         i, j = 3 * np.intp(pairs[s, 0]), 3 * np.intp(pairs[s, 1])

@@ -35,11 +35,11 @@ Group = Literal["Design", "Bring in", "Get out", "Library"]
 class PagePanel:
     """One part of the page.
 
-    name: that of its module in `panels/`, and part of the ids of its elements. part: of the editor,
+    name: of its module in `panels/`, and part of the ids of its elements. part: of the editor,
     instead of a module. title: the text of
     its heading and tab. icon: the tab's icon, a name in Material Icons. place: panels `left` of and
     `under` the viewport are always visible in a wide window; panels at the `side` share one place,
-    with tabs. On a phone every panel except the viewport and the palette is a tab. group: that of
+    with tabs. On a phone every panel except the viewport and the palette is a tab. group: of
     the tab; a panel without one has no tab.
     """
 

@@ -137,7 +137,7 @@ def _add_live(app: FastAPI, session_of: SessionOf) -> None:
 
 
 def _add_player(app: FastAPI, building: KernelBuild) -> None:
-    """What plays the scenes: the module of kernels, and that of the viewer."""
+    """What plays the scenes: the module of kernels and the module of the viewer."""
 
     @app.get("/cloth.wasm")
     async def kernels() -> Response:

@@ -46,7 +46,7 @@ class Session(Document):
     the studio; if not given, the session makes them.
     entries: the number of each design's entry in the library, by the origin of its sketch.
     tags: the tags that the user gave a design, by the same. recent: the latest designs of the
-    user's browser with their options, newest first. language: that of its page.
+    user's browser with their options, newest first. language: of its page.
     """
 
     def __init__(

@@ -467,7 +467,7 @@ def _on_picture(corners: Corners, width: int, height: int) -> NDArray[np.void]:
 def _blends_last(raster: Raster, material_alpha: NDArray[np.uint8]) -> Raster:
     """The raster with triangles that blend after the others, farthest first.
 
-    A triangle's distance is that of its middle; the order is stable for equal distances.
+    The distance of a triangle is measured at its middle; the order is stable for equal distances.
     """
     if not (material_alpha == BLEND).any():
         return raster

@@ -153,7 +153,7 @@ def _shade_tile(
     tint: see `lit`. receivers, shadows, details: see `draw_tiles`. grid: samples along a pixel's
         side.
     scratch: setups of triangles; of each sample of a row the runs, light, place in the atlas,
-        colour and gloss; then that of `cast_shadows`.
+        colour and gloss; then the scratch of `cast_shadows`.
     The layers of a run are composited first, and a row is lit once at the end. A loop goes over
     whole groups of samples, so that it can be vectorised: what is beyond a run is overwritten by
     the next one, or not seen.

@@ -327,8 +327,8 @@ def update_velocities(
 ) -> None:
     """Give particles that were moved here, and did not bounce, the velocity of their motion over
     the step. Otherwise a cloth that its solver pulls into a surface at every step would keep the
-    speed of that pull. The new speed is at most the speed before the collision response, or that
-    of an impact.
+    speed of that pull. The new speed is at most the speed before the collision response, or the
+    speed of an impact.
 
     solved, speeds: positions [m] and velocities [m/s] before colliders, of cloths first..last.
     """

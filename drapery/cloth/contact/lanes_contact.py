@@ -113,7 +113,7 @@ def contact_of(boxes: Any, work: Any) -> BoxContact:
 def resolve(work: Any, boxes: Any, itself: Any, limit: Any, careful: int) -> int:
     """Resolve the contacts of a cloth with boxes and with itself between work.start and work.end,
     then limit its strain. Returns 0 if it had neither, else `MET`, `HELD` or `LONG`; or, unless
-    careful is 1, `TORN` where the step shall be made again."""
+    careful is 1, `TORN` where the step has to be made again."""
     reset_tracks(work.near)
     contact = contact_of(boxes, work)
     met = meet_one(work.start, work.end, itself, contact, work.near)
@@ -226,7 +226,7 @@ def meet_lanes(
     y: Any, u: Any, before: Any, batch: Any, start: Any, when: Any, dt: Any, careful: Any
 ) -> Any:
     """Resolve the contacts of a block y, u [3N, L] that moved for dt [s]; returns 1 if the whole
-    step shall be made again, with more contacts, else 0. Then y and u are at its start again.
+    step has to be made again, with more contacts, else 0. Then y and u are at its start again.
 
     before: see `begin_lanes`. when: see `place_boxes`. careful: the step is not made again, since
     that is being done, in lanes with a 1, or since it has no substeps.
@@ -322,7 +322,7 @@ def contact_due(turn: Any, substeps: Any, again: Any) -> Any:
 def meet_lane(
     y: Any, u: Any, before: Any, batch: Any, start: Any, cloth: Any, dt: Any, careful: Any
 ) -> Any:
-    """Resolve the contacts of one lane; returns whether its step shall be made again instead."""
+    """Resolve the contacts of one lane; returns whether its step has to be made again."""
     work = batch.work
     for i in range(work.end.shape[0]):
         for axis in range(3):

@@ -42,8 +42,8 @@ def shorten_unsafe(
     turn: int,
     stop: bool,
 ) -> bool:
-    """Shorten the displacements of pairs that would come nearer than they may, to 0 if they shall
-    stop; returns whether there was any.
+    """Shorten the displacements of pairs that would come nearer than they may, to 0 if `stop` is
+    True; returns whether there was any.
 
     thickness: see `least_distance` [m].
     changed: the last turn in which each particle was moved, [N]; it is set. turn: 0 at first,

@@ -91,7 +91,7 @@ def join_blocks(levels: NDArray[np.int32], tangents: Array) -> None:
 
 @borrowing_kernel
 def lowest(tangents: Array, bound: int, block: int, down: int, across: int) -> Vector:
-    """A lower bound over a block and the blocks so many numbers down and across from it."""
+    """A lower bound over a block and the blocks that are `down` and `across` numbers from it."""
     a, b = read(tangents, bound, 3 * block), read(tangents, bound, 3 * (block + across))
     below = block + down
     c, d = read(tangents, bound, 3 * below), read(tangents, bound, 3 * (below + across))

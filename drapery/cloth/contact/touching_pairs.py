@@ -261,7 +261,7 @@ def add_pairs(
 
 @borrowing_kernel
 def between_middles(x: Array, i: int, j: int, k: int, m: int, edges: int) -> Vector:
-    """The vector from the middle of the second part of a pair to that of the first."""
+    """The vector from the middle of the second part of a pair to the middle of the first."""
     a, b, c, d = row(x, i), row(x, j), row(x, k), row(x, m)
     if edges:
         return scale(0.5, subtract(add_scaled(a, 1.0, b), add_scaled(c, 1.0, d)))

@@ -1,8 +1,8 @@
 """Störmer-Verlet on springs, with Provot's limit on stretch taken in Jacobi order.
 
 Verlet, "Computer experiments on classical fluids" (Phys. Rev. 159, 1967). The limit on stretch is
-that of Provot, "Deformation constraints in a mass-spring model" (Graphics Interface 1995), with all
-corrections summed from the same positions and then applied together.
+taken from Provot, "Deformation constraints in a mass-spring model" (Graphics Interface 1995), with
+all corrections summed from the same positions and then applied together.
 
 Order 2 while no spring is too long. The step is written with velocities (Swope et al. 1982): half a
 kick, a drift, half a kick; the positions are those of x_{n+1} = 2 x_n - x_{n-1} + a dt². The method
