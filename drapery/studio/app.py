@@ -9,6 +9,7 @@ from urllib.parse import urlencode
 import uvicorn
 from fastapi import FastAPI
 from nicegui import app as nicegui_app, core, ui
+from starlette.concurrency import run_in_threadpool
 
 from drapery import OutputError
 from drapery.studio import page, routes
@@ -36,8 +37,10 @@ def make_app(
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         core.sio.eio.ping_timeout = BUSY
         pruning = asyncio.create_task(prune_regularly(sessions, PRUNE_INTERVAL))
+        making = asyncio.create_task(run_in_threadpool(sessions.make_first_scene))
         yield
         pruning.cancel()
+        await making
         await building.stop()
         sessions.close_all()
 

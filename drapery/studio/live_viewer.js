@@ -36,7 +36,7 @@ async function answerOf(address) {
   return answer;
 }
 
-const bytesOf = async (address) => new Uint8Array(await (await answerOf(address)).arrayBuffer());
+const bytesOf = async (answer) => new Uint8Array(await (await answer).arrayBuffer());
 
 class CountedPlayer extends Player {
   moment(seconds) {
@@ -49,7 +49,7 @@ export class LiveViewer {
   // host: the element for the canvases. tell: takes what the page shows beside them: line, picture, wind,
   // azimuth, rate. emit: takes the name of an event for the server, and its value.
   constructor(host, tell, emit) {
-    Object.assign(this, { host, tell, emit, players: [], keys: new Set(), seen: true, shown: 0 });
+    Object.assign(this, { host, tell, emit, players: [], modules: {}, keys: new Set(), seen: true, shown: 0 });
     this.orbit = new Orbit();
     this.input = new InputHandler(this);
     // Until the server knows it.
@@ -85,7 +85,6 @@ export class LiveViewer {
     const before = this.state;
     this.state = state;
     if (before) this.apply(before);
-    if (before?.module !== state.module) Object.assign(this, { module: null, refused: null });
     this.load();
   }
 
@@ -134,12 +133,10 @@ export class LiveViewer {
   async openScenes(addresses) {
     this.tell({ line: this.state.line });
     await wholeContext(); // throws an Error where there is no WebGL 2
-    this.module ??= bytesOf(this.state.module);
-    this.module.catch(() => (this.module = null)); // the next scene tries again
-    const [module, ...files] = await Promise.all([this.module, ...addresses.map(bytesOf)]);
+    const files = await Promise.all(addresses.map((address) => this.fileOf(address)));
     if (this.isOver) return;
     const canvases = this.canvasesFor(files.length);
-    const made = files.map((file, number) => CountedPlayer.made(canvases[number], unpack(file.buffer), module, this.design));
+    const made = files.map(([file, module], number) => CountedPlayer.made(canvases[number], unpack(file.buffer), module, this.design));
     const players = await Promise.all(made);
     const follows = players.map((player, number) => this.players.length > 0 && player.follow(this.players[number] ?? this.players[0]));
     this.isDisturbed = follows.includes(true) && (this.isDisturbed || this.motion !== this.state.motion);
@@ -147,6 +144,15 @@ export class LiveViewer {
     this.replace(players);
     this.apply(null);
     this.tell({ line: this.state.line, picture: null });
+  }
+
+  // A scene, and the module of the kernels that it calls: the same object for the same kernels.
+  async fileOf(address) {
+    const answer = await answerOf(address);
+    const kernels = answer.headers.get("kernels");
+    this.modules[kernels] ??= bytesOf(answerOf(kernels));
+    this.modules[kernels].catch(() => delete this.modules[kernels]); // the next scene tries again
+    return Promise.all([bytesOf(answer), this.modules[kernels]]);
   }
 
   // Show one picture after the other, as long as they are wanted.

@@ -18,14 +18,13 @@ from drapery.studio.components import editor_part, viewer_address
 from drapery.studio.descriptions import described
 from drapery.studio.notices import show_notice
 from drapery.studio.panels import bar, shortcuts
+from drapery.studio.played import known_kernels
 from drapery.studio.session import Session, Sessions
 from drapery.studio.share import opened_link, write_link
 from drapery.studio.sketch import Sketch, sketch_of
 from drapery.studio.translation import language, translated
-from drapery.studio.viewport import module_address
 from drapery.studio.warning_log import collected_warnings
 from drapery.studio.widgets import on, translated_text
-from drapery.web.wasm.module import is_module_built
 
 Place = Literal["left", "viewport", "under", "side"]
 Group = Literal["Design", "Bring in", "Get out", "Library"]
@@ -174,8 +173,9 @@ def _head(session: Session) -> None:
     ui.add_head_html(f'<script type="module">{(_FOLDER / "studio.js").read_text()}</script>')
     # What plays the cloth comes beside the page's framework, not after it.
     ui.add_head_html(f'<link rel="modulepreload" href="{viewer_address()}">')
-    fetched = [face_files(session)["banner"], *([module_address()] if is_module_built() else [])]
-    for address in fetched:
+    scenes = session.viewport.shown["scenes"]
+    kernels = {known_kernels(Path(address).stem) for address in scenes} - {None}
+    for address in (*scenes, *kernels, face_files(session)["banner"]):
         ui.add_head_html(f'<link rel="preload" as="fetch" crossorigin href="{escape(address)}">')
 
 

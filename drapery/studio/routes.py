@@ -4,13 +4,15 @@ Every address holds the token of an open session; no part of an address is a fil
 """
 
 import gzip
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Annotated, Literal
 from urllib.parse import quote
 
 from fastapi import FastAPI, HTTPException, Query, Request, Response
 from fastapi.responses import FileResponse, JSONResponse, PlainTextResponse
+from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
 from drapery import DesignError, DraperyError, OptionError
@@ -20,13 +22,14 @@ from drapery.packs import Packs, open_packs
 from drapery.studio.art import face_png, pattern_names, pattern_rows, pattern_sheet, style_png
 from drapery.studio.components import viewer_module
 from drapery.studio.kernel_build import KernelBuild
+from drapery.studio.played import kernel_file
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import banner_of
 from drapery.studio.translation import translated
 from drapery.studio.uploads import PURPOSES, shown_bytes, shown_name
 from drapery.styles import style_names
 from drapery.web.face_file import face_bytes
-from drapery.web.wasm.module import is_module_built, read_module
+from drapery.web.wasm.image import WasmBuildError
 
 CACHING = "private, max-age=3600"
 """The addresses of pictures change whenever their content does."""
@@ -50,8 +53,8 @@ def add_routes(app: FastAPI, sessions: Sessions, building: KernelBuild) -> None:
         return session
 
     _add_pictures(app, session_of)
-    _add_live(app, session_of)
-    _add_player(app, building)
+    _add_live(app, sessions, session_of, building)
+    _add_player(app)
     _add_downloads(app, session_of)
     _add_uploads(app, session_of)
 
@@ -108,20 +111,32 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
         return _picture(session, draw)
 
 
-def _add_live(app: FastAPI, session_of: SessionOf) -> None:
+def _add_live(
+    app: FastAPI, sessions: Sessions, session_of: SessionOf, building: KernelBuild
+) -> None:
     """What the viewer plays, and pictures of what cannot be played."""
 
-    @app.get("/live/{token}/{key}.bin")
-    def scene(token: str, key: str) -> Response:
-        session = session_of(token)
-        if not session.viewport.shows(key):
-            return Response(status_code=204)
+    async def scene(session: Session, key: str) -> Response:
         try:
-            return _compressed(session.viewport.scene(key), "application/octet-stream")
+            file = await run_in_threadpool(session.viewport.scene, key)
+        except WasmBuildError:
+            return PlainTextResponse(translated(await building.start(), session.language), 422)
         except OptionError:  # it is not the user's fault
             return PlainTextResponse(translated(RENDERED, session.language), 422)
         except DraperyError as error:
             return _not_shown(session, error)
+        return _compressed(file.data, "application/octet-stream", {"Kernels": file.kernels})
+
+    @app.get("/live/{key}.bin")
+    async def shared_scene(key: str) -> Response:
+        session = sessions.showing(key)
+        return Response(status_code=204) if session is None else await scene(session, key)
+
+    @app.get("/live/{token}/{key}.bin")
+    async def own_scene(token: str, key: str) -> Response:
+        session = session_of(token)
+        shows = session.viewport.shows(key)
+        return await scene(session, key) if shows else Response(status_code=204)
 
     @app.get("/live/{token}/{key}.{ending}")
     def picture(token: str, key: str, ending: str) -> Response:
@@ -136,22 +151,23 @@ def _add_live(app: FastAPI, session_of: SessionOf) -> None:
         return Response(data, media_type=kind, headers={"Cache-Control": CACHING})
 
 
-def _add_player(app: FastAPI, building: KernelBuild) -> None:
-    """What plays the scenes: the module of kernels and the module of the viewer."""
+def _add_player(app: FastAPI) -> None:
+    """What plays the scenes: their kernels, and the module of the viewer."""
 
     @app.get("/cloth.wasm")
-    async def kernels() -> Response:
-        if not is_module_built():
-            return PlainTextResponse(await building.start(), 422)
-        return _compressed(gzip.compress(read_module(), mtime=0), "application/wasm")
+    def kernels(module: str, kernels: Text) -> Response:
+        try:
+            return _compressed(kernel_file(module, kernels), "application/wasm")
+        except (KeyError, WasmBuildError):
+            raise HTTPException(404, "no such kernels: reload the page") from None
 
     @app.get("/viewer.js")
     def viewer() -> Response:
         return _compressed(gzip.compress(viewer_module().encode(), mtime=0), "text/javascript")
 
 
-def _compressed(data: bytes, kind: str) -> Response:
-    headers = {"Cache-Control": CACHING, "Content-Encoding": "gzip"}
+def _compressed(data: bytes, kind: str, more: Mapping[str, str] = MappingProxyType({})) -> Response:
+    headers = {"Cache-Control": CACHING, "Content-Encoding": "gzip", **more}
     return Response(data, media_type=kind, headers=headers)
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drapery import DesignError, Settings
+from drapery import DesignError, DraperyError, Settings
 from drapery.studio.document import Document, Event
 from drapery.studio.exports import Exports, ExportSlots
 from drapery.studio.garment_store import GarmentStore
@@ -164,6 +164,18 @@ class Sessions:
     def find(self, token: str) -> Session | None:
         """The open session with this token, or None."""
         return self._open.get(token)
+
+    def showing(self, key: str) -> Session | None:
+        """A session whose viewer shows the scene with this key, or None."""
+        return next((each for each in [*self._open.values()] if each.viewport.shows(key)), None)
+
+    def make_first_scene(self) -> None:
+        """Make the scene that each new tab shows, so that the first one does not wait for it."""
+        session = Session(self.config.settings)
+        with suppress(DraperyError):  # the page says why
+            for address in session.viewport.shown["scenes"]:
+                session.viewport.scene(Path(address).stem)
+        session.close()
 
     def notify(self, event: Event) -> None:
         """Call the listeners of an event in all sessions."""

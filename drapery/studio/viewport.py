@@ -23,11 +23,11 @@ from drapery.studio.chosen_scene import scene_choice
 from drapery.studio.document import Document
 from drapery.studio.exports import make
 from drapery.studio.pack_store import PackStore
+from drapery.studio.played import PlayedScene, SceneFile, built_module, scene_file
 from drapery.studio.sketch import banner_of
 from drapery.studio.snippets import ExportRequest, subject_of
 from drapery.styles import combined_style
-from drapery.web.scene_file import MAX_SIDE, scene_bytes
-from drapery.web.wasm.module import is_module_built, sources_hash
+from drapery.web.scene_file import MAX_SIDE
 
 LONGEST = 60.0
 """The latest moment of a pause that becomes the picture's `time` [s].
@@ -75,21 +75,6 @@ class ViewportRequest:
     def shown(self) -> tuple[str | None, ...]:
         """What takes the place of the banner, if anything does."""
         return self.scene, self.garment, self.skin
-
-
-@dataclass(frozen=True, eq=False)
-class PlayedScene:
-    """What a file for the browser is made of; see `scene_bytes`."""
-
-    subject: Banner | Garment | None
-    packs: Packs
-    settings: Settings
-    patterns: tuple[str, ...]
-
-
-def module_address() -> str:
-    """The address of the module of kernels; another one when it has been built."""
-    return f"cloth.wasm?v={sources_hash()}-{is_module_built():d}"
 
 
 class Viewport:
@@ -160,7 +145,6 @@ class Viewport:
         """
         request, settings = self.request, self._document.settings
         seen: dict[str, Any] = {
-            "module": module_address(),
             "scenes": [],
             "labels": [],
             "pictures": [],
@@ -184,14 +168,13 @@ class Viewport:
             seen["line"] = self._pack_store.with_names(str(error))
         return seen
 
-    def scene(self, key: str) -> bytes:
-        """The file of a scene that is shown, compressed with gzip.
+    def scene(self, key: str) -> SceneFile:
+        """The file of a scene that is shown.
 
         It blocks, so call it in a thread. Raises DraperyError for what a page cannot play.
         """
         with self._playing:
-            found = self._find(key, PlayedScene)
-            return scene_bytes(found.subject, found.packs, found.settings, found.patterns)
+            return scene_file(key, self._find(key, PlayedScene))
 
     def picture(self, key: str) -> bytes:
         """The file of a picture that is shown. It blocks, so call it in a thread.
@@ -241,7 +224,7 @@ class Viewport:
                 found["labels"] = self._captions()
             found["scenes"] = []
             for packs, paths in stacks:
-                played = self._played(subject, packs)
+                played = self._played(subject, packs, paths)
                 source = played.subject, played.settings, played.patterns, paths, settings.format
                 found["scenes"].append(self._keep(shown, played, "bin", source))
         self._kept = shown
@@ -273,7 +256,7 @@ class Viewport:
         hangs = "wind" in applicable(settings.subject(kind), "loop")
         return [still, film] if hangs else [still], ""
 
-    def _played(self, subject: Banner | Garment | None, packs: Packs) -> PlayedScene:
+    def _played(self, subject: Banner | Garment | None, packs: Packs, paths: object) -> PlayedScene:
         settings, kind = self._document.settings, Subject("garment")
         if not isinstance(subject, Garment):
             kind = settings.subject(subject.kind if subject else "banner")
@@ -283,7 +266,7 @@ class Viewport:
             if name not in (*IN_BROWSER, *OF_PICTURES)
         }
         if isinstance(subject, Garment):
-            return PlayedScene(subject, packs, subject.settings(**given), ())
+            return PlayedScene(subject, packs, paths, subject.settings(**given), ())
         own = [layer.pattern for layer in subject.layers] if subject else []
         names = pattern_names(packs)
         side = packs.base_sheet().shape[1]
@@ -295,7 +278,7 @@ class Viewport:
                 names = ()
         patterns = tuple(dict.fromkeys((*names, *own)))
         made = Settings(**given, size=(SIZE, SIZE))
-        return PlayedScene(subject, packs, made, patterns)
+        return PlayedScene(subject, packs, paths, made, patterns)
 
     def _keep(
         self,
@@ -305,10 +288,13 @@ class Viewport:
         source: object,
     ) -> str:
         """The address of what can be made. source: all that its content depends on."""
-        text = repr((__version__, sources_hash(), source))
+        text = repr((__version__, built_module(), source))
         key = hashlib.sha256(text.encode()).hexdigest()[:24]
         shown[key] = made
-        return f"live/{self._document.token}/{key}.{ending}"
+        is_shared = isinstance(made, PlayedScene) and made.is_shared
+        return (
+            f"live/{key}.{ending}" if is_shared else f"live/{self._document.token}/{key}.{ending}"
+        )
 
     def _open_beside(self, paths: tuple[str | Path, ...] | None) -> Packs | None:
         """The packs of the second view; opened again only when they change."""

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from fastapi import FastAPI
+from pack_maker import BANNER, META, mcmeta, noise, png, zip_pack
 from PIL import Image
 from starlette.testclient import TestClient
 
@@ -18,11 +19,13 @@ from drapery import Banner, OptionError, draw
 from drapery.settings import Settings
 from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.panels.live import show_scene, wear
+from drapery.studio.played import known_kernels
 from drapery.studio.routes import add_routes
-from drapery.studio.session import Session, Sessions
+from drapery.studio.session import Session, Sessions, StudioConfig
 from drapery.studio.sketch import Sketch, sketch_of
 from drapery.web.messages import unpack
-from drapery.web.scene_file import scene_bytes
+from drapery.web.scene_file import called_kernels, scene_bytes
+from drapery.web.wasm.module import smallest_module
 
 pytestmark = pytest.mark.page  # their module takes minutes to compile
 
@@ -48,7 +51,7 @@ def scene_key(session: Session) -> str:
 
 def scene_of(session: Session) -> tuple[dict[str, Any], dict[str, Any]]:
     """The header and the arrays of the scene that is shown."""
-    return unpack(gzip.decompress(session.viewport.scene(scene_key(session))))
+    return unpack(gzip.decompress(session.viewport.scene(scene_key(session)).data))
 
 
 def test_what_the_browser_does_itself_is_told_and_changes_no_address(session: Session) -> None:
@@ -182,37 +185,72 @@ def test_the_browser_gets_scenes_kernels_viewer_and_pictures(
     session = sessions.open(playable(size=(24, 32)), sketch_of(DESIGN))
     shown = session.viewport.shown
     (scene,) = shown["scenes"]
-    header, _ = unpack(page.get(scene).content)
+    answer = page.get(scene)
+    header, _ = unpack(answer.content)
     assert header["sheets"][:2] == ["", "base"]
-    assert page.get(shown["module"]).content[:4] == b"\0asm"
+    kernels = page.get(answer.headers["kernels"]).content
+    assert kernels == smallest_module(called_kernels({"": gzip.compress(answer.content)}))
+    assert page.get(answer.headers["kernels"] + "x").status_code == 404
     assert "export { LiveViewer, StudioDesigner };" in page.get("viewer.js").text
     still = page.get(shown["pictures"][0])
     assert still.headers["content-type"] == "image/png"
     assert Image.open(io.BytesIO(still.content)).size == (24, 32)
-    assert page.get(scene.replace(session.token, "x")).status_code == 404
+    assert page.get(shown["pictures"][0].replace(session.token, "x")).status_code == 404
     session.adjust(solver="verlet")
     answer = page.get(session.viewport.shown["scenes"][0])
     assert (answer.status_code, answer.text[:26]) == (422, "A picture by the renderer,")
 
 
-def test_a_module_that_is_missing_is_built_once_and_told(tmp_path: Path) -> None:
+def test_a_scene_without_files_of_a_user_is_made_once_for_all_tabs(
+    client: tuple[TestClient, Sessions], playable: Playable, tmp_path: Path
+) -> None:
+    page, sessions = client
+    settings = playable(size=(24, 32), thickness=1.75)
+    one, other = (sessions.open(settings) for _ in range(2))
+    (scene,) = one.viewport.shown["scenes"]
+    key = key_of(scene)
+    assert scene == f"live/{key}.bin" and known_kernels(key) is None
+    assert [scene] == other.viewport.shown["scenes"]
+    assert page.get(scene).status_code == 200 and known_kernels(key)
+    assert one.viewport.scene(key) is other.viewport.scene(key)
+    pack = zip_pack(tmp_path / "a.zip", {META: mcmeta(), f"{BANNER}creeper.png": png(noise(1))})
+    for session in (one, other):
+        session.adjust(packs=(pack,))
+        assert session.viewport.shown["scenes"][0].startswith(f"live/{session.token}/")
+    assert page.get(scene).status_code == 204, "no tab shows it"
+
+
+def test_the_first_scene_is_made_before_a_tab_asks_for_it(playable: Playable) -> None:
+    sessions = Sessions(StudioConfig(playable(thickness=1.5)))
+    sessions.make_first_scene()
+    (scene,) = sessions.open().viewport.shown["scenes"]
+    assert known_kernels(key_of(scene))
+    sessions.close_all()
+
+
+def test_a_module_that_is_missing_is_built_once_and_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("drapery.studio.kernel_build.is_module_built", bool)
     sessions, told = Sessions(), []
-    sessions.open().listen(lambda: told.append(1), "scene")
     made = tmp_path / "made"
-    program = f"import pathlib; pathlib.Path({str(made)!r}).open('a').write('x')"
-    building = KernelBuild(sessions, (sys.executable, "-c", program))
+    made.touch()
+    sessions.open().listen(lambda: told.append(made.read_text()), "scene")
+    programs = [f"open({str(made)!r}, 'a').write({each!r})" for each in ("first ", "whole")]
+    building = KernelBuild(sessions, *((sys.executable, "-c", program) for program in programs))
 
     async def ask() -> None:
         assert await building.start() == await building.start()
         await building.wait()
 
     asyncio.run(ask())
-    assert made.read_text() == "x" and told == [1]
+    assert told == ["first ", "first whole"]
     sessions.close_all()
 
 
 def test_a_build_ends_with_the_studio(tmp_path: Path) -> None:
-    building = KernelBuild(Sessions(), (sys.executable, "-c", "import time; time.sleep(600)"))
+    waiting = (sys.executable, "-c", "import time; time.sleep(600)")
+    building = KernelBuild(Sessions(), waiting, waiting)
 
     async def ask() -> None:
         await building.start()
