@@ -1,8 +1,10 @@
 """The page's own elements in the browser; each has a JavaScript file beside this one."""
 
 import hashlib
+import json
 import math
 from functools import cache, partial
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -117,16 +119,31 @@ class ViewerElement(Element, component="viewer.js"):
         self.on("wind", lambda event: self._steer(event.args))
 
     def _show(self) -> None:
-        shown = self._session.viewport.shown
-        for name in ("line", "note"):
-            shown[name] = translated(shown[name])
-        shown["labels"] = [*map(translated, shown["labels"])]
-        set_props(self, {"shown": shown})
+        set_props(self, {"shown": _shown(self._session)})
 
     def _steer(self, wind: Any) -> None:
         """Take the wind that keys have made in the browser."""
         speed, heading = map(_number, wind)
         self._session.adjust(wind=round(speed, 1), direction=round(heading, 1))
+
+
+def add_first_view(session: Session) -> None:
+    """Play the cloth about where the viewer will be, before the page's framework has come."""
+    label, state = escape(translated(LABEL)), json.dumps(_shown(session)).replace("<", r"\u003c")
+    host = f'<div class="viewer-host" tabindex="0" role="application" aria-label="{label}"></div>'
+    ui.add_body_html(
+        f'<div class="viewer first-view">{host}</div><script type="module" async>'
+        f'import {{ LiveViewer }} from "./{viewer_address()}";'
+        f'LiveViewer.begin(document.querySelector(".first-view"), {state});</script>'
+    )
+
+
+def _shown(session: Session) -> dict[str, Any]:
+    """What the viewer is told, in the language of its user."""
+    shown = session.viewport.shown
+    for name in ("line", "note"):
+        shown[name] = translated(shown[name])
+    return {**shown, "labels": [*map(translated, shown["labels"])]}
 
 
 def viewer_module() -> str:

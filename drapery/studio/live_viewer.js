@@ -80,6 +80,28 @@ export class LiveViewer {
     this.replace([]);
   }
 
+  // Begin in a place that the page has before its framework.
+  static begin(place, state) {
+    const [told, events] = [{}, []];
+    const viewer = new LiveViewer(place.firstChild, (each) => Object.assign(told, each), (...event) => events.push(event));
+    this.first = place.viewer = Object.assign(viewer, { told, events });
+    viewer.show(state);
+  }
+
+  // The viewer in the place of an element of the framework: the first one goes on there.
+  static at(host, tell, emit) {
+    const viewer = this.first ?? new LiveViewer(host, tell, emit);
+    if (this.first) {
+      viewer.host.parentElement.remove();
+      host.replaceWith(viewer.host);
+      Object.assign(viewer, { tell, emit });
+      tell(viewer.told);
+      viewer.events.forEach((event) => emit(...event));
+    }
+    this.first = null;
+    return viewer;
+  }
+
   // What the server wants to be seen; `Viewport.shown` says what it has.
   show(state) {
     const before = this.state;

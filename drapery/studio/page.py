@@ -1,5 +1,6 @@
 """The page: the place of each panel. A new panel needs a file in `panels/` and a line in PANELS."""
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 from html import escape
@@ -14,7 +15,7 @@ from nicegui.element import Element
 from drapery import DraperyError, Settings
 from drapery.banner import parse_banner
 from drapery.studio.art import face_files
-from drapery.studio.components import editor_part, viewer_address
+from drapery.studio.components import add_first_view, editor_part, viewer_address
 from drapery.studio.descriptions import described
 from drapery.studio.notices import show_notice
 from drapery.studio.panels import bar, shortcuts
@@ -24,7 +25,7 @@ from drapery.studio.share import opened_link, write_link
 from drapery.studio.sketch import Sketch, sketch_of
 from drapery.studio.translation import language, translated
 from drapery.studio.warning_log import collected_warnings
-from drapery.studio.widgets import on, translated_text
+from drapery.studio.widgets import on, set_props, translated_text
 
 Place = Literal["left", "viewport", "under", "side"]
 Group = Literal["Design", "Bring in", "Get out", "Library"]
@@ -112,6 +113,7 @@ def opened(base: Settings, request: Request | None) -> tuple[Settings, Sketch | 
 def build(session: Session, sessions: Sessions) -> None:
     """Draw the whole page for a session. sessions: of the pages that it may go on from."""
     _head(session)
+    add_first_view(session)
     with ui.element("div").classes("studio").props(f'data-token="{session.token}"') as root:
         session.language = root.props["data-language"] = language()
         root.props["data-copied"] = translated("Copied")
@@ -124,7 +126,7 @@ def build(session: Session, sessions: Sessions) -> None:
                 _panels(session, place)
         _tabs()
         with ui.element("div").classes("side"):
-            _panels(session, "side")
+            hidden = _panels(session, "side")
     shortcuts.build()
     _write_into_address(session)
     handlers: dict[str, Callable[[Any], object]] = {
@@ -134,6 +136,17 @@ def build(session: Session, sessions: Sessions) -> None:
     }
     for name, handle in handlers.items():
         on(root, name, handle, js_handler=_DETAIL)
+
+    async def build_hidden() -> None:
+        for panel, section in hidden.items():
+            if not session.closed:
+                with section:
+                    _fill(session, panel)
+                await asyncio.sleep(0)  # other pages get their answers meanwhile
+        set_props(root, {"data-whole": True})
+
+    # Half of the page's elements are in tabs that nobody sees yet: they come after the page.
+    ui.timer(0, build_hidden, once=True)
 
 
 def _resume(session: Session, sessions: Sessions, token: object) -> None:
@@ -179,19 +192,29 @@ def _head(session: Session) -> None:
         ui.add_head_html(f'<link rel="preload" as="fetch" crossorigin href="{escape(address)}">')
 
 
-def _panels(session: Session, place: str) -> None:
+def _panels(session: Session, place: str) -> dict[PagePanel, ui.element]:
+    """Build the panels of a place; returns those that are in tabs behind, still empty."""
+    hidden = {}
     for panel in PANELS:
         if panel.place == place:
             section = ui.element("section").classes(f"panel panel-{panel.name}")
             section.props(f'id="panel-{panel.name}"')
             section.props["aria-label"] = translated(panel.title)
+            if panel.place == "side" and panel.name != FIRST_TAB:
+                hidden[panel] = section
+                continue
             if panel.name == FIRST_TAB:
                 section.props("data-active")
             with section:
-                if panel.part:
-                    editor_part(panel.part)
-                    continue
-                import_module(f"{__package__}.panels.{panel.name}").build(session)
+                _fill(session, panel)
+    return hidden
+
+
+def _fill(session: Session, panel: PagePanel) -> None:
+    if panel.part:
+        editor_part(panel.part)
+    else:
+        import_module(f"{__package__}.panels.{panel.name}").build(session)
 
 
 def _tabs() -> None:

@@ -6,6 +6,7 @@ Every address holds the token of an open session; no part of an address is a fil
 import gzip
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
 from typing import Annotated, Literal
 from urllib.parse import quote
@@ -22,7 +23,7 @@ from drapery.packs import Packs, open_packs
 from drapery.studio.art import face_png, pattern_names, pattern_rows, pattern_sheet, style_png
 from drapery.studio.components import viewer_module
 from drapery.studio.kernel_build import KernelBuild
-from drapery.studio.played import kernel_file
+from drapery.studio.played import SceneFile, kernel_file, scene_file
 from drapery.studio.session import Session, Sessions
 from drapery.studio.sketch import banner_of
 from drapery.studio.translation import translated
@@ -116,9 +117,9 @@ def _add_live(
 ) -> None:
     """What the viewer plays, and pictures of what cannot be played."""
 
-    async def scene(session: Session, key: str) -> Response:
+    async def scene(session: Session, make: Callable[[], SceneFile]) -> Response:
         try:
-            file = await run_in_threadpool(session.viewport.scene, key)
+            file = await run_in_threadpool(make)
         except WasmBuildError:
             return PlainTextResponse(translated(await building.start(), session.language), 422)
         except OptionError:  # it is not the user's fault
@@ -129,14 +130,18 @@ def _add_live(
 
     @app.get("/live/{key}.bin")
     async def shared_scene(key: str) -> Response:
-        session = sessions.showing(key)
-        return Response(status_code=204) if session is None else await scene(session, key)
+        for session in sessions:
+            shown = session.viewport.shared_scene(key)
+            if shown is not None:  # whatever this tab shows when it is made
+                return await scene(session, partial(scene_file, key, shown))
+        return Response(status_code=204)
 
     @app.get("/live/{token}/{key}.bin")
     async def own_scene(token: str, key: str) -> Response:
-        session = session_of(token)
-        shows = session.viewport.shows(key)
-        return await scene(session, key) if shows else Response(status_code=204)
+        viewport = session_of(token).viewport
+        if not viewport.shows(key):
+            return Response(status_code=204)
+        return await scene(session_of(token), partial(viewport.scene, key))
 
     @app.get("/live/{token}/{key}.{ending}")
     def picture(token: str, key: str, ending: str) -> Response:

@@ -1,6 +1,7 @@
 """The session of one browser tab (its document and all that serves it), and all open sessions."""
 
 import secrets
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -146,6 +147,9 @@ class Sessions:
     def __len__(self) -> int:
         return len(self._open)
 
+    def __iter__(self) -> Iterator[Session]:
+        return iter([*self._open.values()])
+
     def open(self, settings: Settings | None = None, sketch: Sketch | None = None) -> Session:
         """Open a session, which `find` returns until it closes.
 
@@ -165,10 +169,6 @@ class Sessions:
         """The open session with this token, or None."""
         return self._open.get(token)
 
-    def showing(self, key: str) -> Session | None:
-        """A session whose viewer shows the scene with this key, or None."""
-        return next((each for each in [*self._open.values()] if each.viewport.shows(key)), None)
-
     def make_first_scene(self) -> None:
         """Make the scene that each new tab shows, so that the first one does not wait for it."""
         session = Session(self.config.settings)
@@ -179,7 +179,7 @@ class Sessions:
 
     def notify(self, event: Event) -> None:
         """Call the listeners of an event in all sessions."""
-        for session in [*self._open.values()]:
+        for session in self:
             session.notify(event)
 
     def keep(self, session: Session) -> None:
@@ -205,5 +205,5 @@ class Sessions:
     def close_all(self) -> None:
         """End all sessions, for example when the server stops."""
         self._kept.clear()
-        for session in [*self._open.values()]:
+        for session in self:
             session.close()

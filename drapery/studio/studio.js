@@ -4,7 +4,7 @@ const root = () => document.querySelector(".studio");
 
 const studio = (window.studio = {
   get ready() {
-    return !!(root() && window.socket?.connected && document.querySelector(".part-dyes .dye"));
+    return !!(root()?.dataset.whole && window.socket?.connected && document.querySelector(".part-dyes .dye"));
   },
   copy,
   tab,

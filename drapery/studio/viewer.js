@@ -35,7 +35,7 @@ export default {
     if (!this.$refs.host) return; // the page has gone
     const emit = (name, value) => this.$emit(name, value);
     // Not in Vue's data, because Vue would wrap everything in the viewer in proxies.
-    this.$el.viewer = new LiveViewer(this.$refs.host, (told) => this.update(told), emit);
+    this.$el.viewer = LiveViewer.at(this.$refs.host, (told) => this.update(told), emit);
     this.$el.viewer.show(this.shown);
   },
   beforeUnmount() {

@@ -176,6 +176,11 @@ class Viewport:
         with self._playing:
             return scene_file(key, self._find(key, PlayedScene))
 
+    def shared_scene(self, key: str) -> PlayedScene | None:
+        """What the file of a scene is made of that is shown, and is the same for all tabs."""
+        found = self._kept.get(key)
+        return found if isinstance(found, PlayedScene) and found.is_shared else None
+
     def picture(self, key: str) -> bytes:
         """The file of a picture that is shown. It blocks, so call it in a thread.
 
