@@ -68,7 +68,7 @@ ALLOWED: dict[str, set[str]] = {
     "batch": set(),
     "serve": {"batch"},
     "web": set(),
-    "studio": {"web"},
+    "studio": {"serve", "web"},
     "commands": {"testing", "batch", "serve", "studio", "web"},
     "cli": {"commands"},
     "__main__": {"cli"},

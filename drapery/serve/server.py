@@ -102,9 +102,27 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 def address_of(listening: socket.socket) -> str:
-    """The address of a listening socket as a URL."""
+    """The address of a listening socket as a URL that others can open."""
     host, port = listening.getsockname()[:2]
+    host = reachable(host)
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
+
+
+def reachable(host: str) -> str:
+    """A host that others can open: this machine's own address for the one that means all of them.
+
+    It is the address of the network through which the machine reaches others; nothing is sent.
+    """
+    outside = {"0.0.0.0": (socket.AF_INET, "192.0.2.1"), "::": (socket.AF_INET6, "2001:db8::1")}
+    if host not in outside:
+        return host
+    family, other = outside[host]
+    try:
+        with socket.socket(family, socket.SOCK_DGRAM) as probe:
+            probe.connect((other, 9))
+            return str(probe.getsockname()[0])
+    except OSError:  # there is no such network
+        return "127.0.0.1" if family == socket.AF_INET else "::1"
 
 
 def check_proxies(proxies: Sequence[str]) -> list[str]:

@@ -11,7 +11,7 @@ from fastapi import FastAPI
 from nicegui import app as nicegui_app, core, ui
 from starlette.concurrency import run_in_threadpool
 
-from drapery import OutputError
+from drapery.serve.server import address_of, listen
 from drapery.studio import page, routes
 from drapery.studio.guard import LOOPBACK, Guard
 from drapery.studio.kernel_build import KernelBuild
@@ -98,11 +98,9 @@ def run(
         timeout_graceful_shutdown=1,
         server_header=False,
     )
-    listening = _listen(host, port)
-    reached = reachable(host)
-    named = f"[{reached}]" if ":" in reached else reached
+    listening = listen(host, port)
     query = f"?{urlencode({'token': token})}" if token else ""
-    address = f"http://{named}:{listening.getsockname()[1]}/{query}"
+    address = f"{address_of(listening)}/{query}"
     # It takes uvloop, which `asyncio.run` would not, and which sends a frame at half the cost.
     _Server(config, lambda: ready(address)).run(sockets=[listening])
 
@@ -119,30 +117,3 @@ class _Server(uvicorn.Server):
         await super().startup(sockets)
         if self.started:
             self._ready()
-
-
-def reachable(host: str) -> str:
-    """A host that others can open: this machine's own address for the one that means all of them.
-
-    It is the address of the network through which the machine reaches others; nothing is sent.
-    """
-    outside = {"0.0.0.0": (socket.AF_INET, "192.0.2.1"), "::": (socket.AF_INET6, "2001:db8::1")}
-    if host not in outside:
-        return host
-    family, other = outside[host]
-    try:
-        with socket.socket(family, socket.SOCK_DGRAM) as probe:
-            probe.connect((other, 9))
-            return str(probe.getsockname()[0])
-    except OSError:  # there is no such network
-        return "127.0.0.1" if family == socket.AF_INET else "::1"
-
-
-def _listen(host: str, port: int) -> socket.socket:
-    try:
-        return socket.create_server(
-            (host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET
-        )
-    except (OSError, UnicodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "no address"
-        raise OutputError(f"{host}:{port}: {why}; use another --port or --host") from None

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from drapery.cli import main
+from drapery.serve.server import reachable
 from drapery.studio import app
-from drapery.studio.app import reachable
 from drapery.studio.guard import LOOPBACK, Guard, host_name
 
 TOKEN = "open sesame & more"
