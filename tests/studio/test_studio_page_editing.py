@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 from selenium.webdriver import Keys
+from selenium.webdriver.common.by import By
 from studio_browser import (
     PHONE,
     WIDE,
@@ -111,6 +112,7 @@ done(viewer.players[0].text);
 def test_an_edit_is_drawn_without_the_server_which_hears_of_it_later(page: Any) -> None:
     player = "return !!document.querySelector('.viewer').viewer?.players.length"
     wait_until(lambda: page.execute_script(player))
+    wait_until(lambda: len(page.find_elements(By.CSS_SELECTOR, ".live-bar option")) > 40)
     is_now(page, "white")
     page.execute_script("window.socket.disconnect()")
     assert page.execute_async_script(SEEN, "lime") == "lime"
