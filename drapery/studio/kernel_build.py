@@ -67,7 +67,7 @@ class KernelBuild:
 
 
 async def _run(command: Sequence[str]) -> None:
-    """Run a command to its end, which comes with that of the task."""
+    """Run a command to its end, which comes when the task ends."""
     # A group of its own, since it starts another process.
     process = await asyncio.create_subprocess_exec(
         *command, stdout=asyncio.subprocess.DEVNULL, start_new_session=True

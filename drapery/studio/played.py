@@ -79,7 +79,7 @@ def built_module() -> str:
 def kernel_file(module: str, names: str) -> bytes:
     """The kernels of these names with commas between, compressed with gzip.
 
-    module: that of `built_module`. Raises WasmBuildError where it is not built, and KeyError for a
+    module: from `built_module`. Raises WasmBuildError where it is not built, and KeyError for a
     name that it does not have.
     """
     return gzip.compress(smallest_module(names.split(",")), mtime=0)
