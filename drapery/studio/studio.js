@@ -9,8 +9,19 @@ const studio = (window.studio = {
   copy,
   tab,
   writeAddress,
-  earlier: history.state?.session, // of the page that was loaded before at this place of the history
+  earlier: earlierSession(),
 });
+
+// Of the page that was loaded before at this place of the history. An address that is written while the page is
+// loaded again costs the place its state: then the work that the tab has kept says it.
+function earlierSession() {
+  const [{ type }] = performance.getEntriesByType("navigation");
+  try {
+    return history.state?.session ?? (type === "reload" && JSON.parse(sessionStorage.getItem("drapery-history"))?.token);
+  } catch {
+    return null;
+  }
+}
 
 // What this browser remembers. Without storage, it lasts as long as the page.
 const store = {

@@ -4,7 +4,6 @@ from typing import Any
 
 import pytest
 from selenium.webdriver import Keys
-from selenium.webdriver.common.by import By
 from studio_browser import (
     PHONE,
     WIDE,
@@ -112,7 +111,6 @@ done(viewer.players[0].text);
 def test_an_edit_is_drawn_without_the_server_which_hears_of_it_later(page: Any) -> None:
     player = "return !!document.querySelector('.viewer').viewer?.players.length"
     wait_until(lambda: page.execute_script(player))
-    wait_until(lambda: len(page.find_elements(By.CSS_SELECTOR, ".live-bar option")) > 40)
     is_now(page, "white")
     page.execute_script("window.socket.disconnect()")
     assert page.execute_async_script(SEEN, "lime") == "lime"
@@ -126,6 +124,25 @@ def test_a_page_that_is_loaded_again_has_its_undo(page: Any) -> None:
     is_now(page, "white creeper:black")
     wait_until(lambda: "?d=" in page.current_url)
     page.refresh()
+    wait_until(lambda: page.execute_script("return !!window.studio?.ready"))
+    is_now(page, "white creeper:black")
+    wait_until(lambda: find(page, "button[aria-label=Undo]").is_enabled())
+    click(page, "button[aria-label=Undo]")
+    is_now(page, "white")
+
+
+RELOADED = """
+window.location.reload();
+history.replaceState(history.state, "", `${location.search}&again=1`);
+"""
+
+
+def test_an_address_that_changes_while_its_page_is_loaded_again_keeps_the_work(page: Any) -> None:
+    """As after a cut connection, when the server lets the page load again and writes a design."""
+    click(page, "[data-pattern=creeper]")
+    is_now(page, "white creeper:black")
+    wait_until(lambda: "?d=" in page.current_url)
+    page.execute_script(RELOADED)
     wait_until(lambda: page.execute_script("return !!window.studio?.ready"))
     is_now(page, "white creeper:black")
     wait_until(lambda: find(page, "button[aria-label=Undo]").is_enabled())
