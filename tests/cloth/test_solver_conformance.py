@@ -45,6 +45,7 @@ from drapery.cloth import (
 )
 from drapery.cloth.colliders.check import sample_distances
 from drapery.cloth.colliders.pose import Path
+from drapery.jit import when_numba_compiles
 from drapery.mesh import Array
 
 G = 9.81
@@ -321,3 +322,13 @@ def gaps(moving: MovingCloth, collider: Collider) -> tuple[float, float]:
         for points in (local, edges)
     )
     return float(particles.min()), float(along.min())
+
+
+@each_solver
+def test_the_loop_of_a_solver_is_compiled_once_for_all_processes(name: str) -> None:
+    moving = MovingCloth.begin(strip(4, 1.0), solver(name), 1 / 60).advance([FALL])
+    moving.solver_state.kernel.forget()
+    compiled: list[Any] = []
+    with when_numba_compiles(compiled.append):
+        moving.advance([FALL])
+    assert not compiled

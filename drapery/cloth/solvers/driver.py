@@ -488,41 +488,45 @@ class Block(NamedTuple):
     add_winds: int
 
 
-@kernel
-def advance_blocks(
-    first: Any,
-    last: Any,
-    plan: Any,
-    batch: Any,
-    steps: Any,
-    substeps: Any,
-    substep: Any,
-    options: Any,
-    scratch: Any = 0,
-) -> None:
-    """Steps of lanes first..last, a block at a time, with the wind of the start of each step and
-    contact at its end.
+def loop_around(substep: Callable[..., None]) -> Callable[..., None]:
+    """The kernel that makes steps of lanes first..last, a block at a time, with the wind of the
+    start of each step and contact at its end.
 
-    substep: a kernel (block, plan, h, number, options) that moves a block by h [s];
-    numbers count over all steps. options: of the method. scratch: rows that it needs in `work`.
+    substep: a kernel (block, plan, h, number, options) that moves a block by h [s]; numbers count
+    over all steps. It is in a cell, since code that is given a kernel as an argument cannot be
+    stored. Options are those of the method, scratch the rows that it needs in `work`.
     """
-    body, h = plan.body, batch.x.dtype.type(batch.numbers[0])
-    for start in range(first, last, batch.width):
-        block = load_block(batch, body, start, last, scratch)
-        y, u = block.y, block.u
-        before = lanes_contact.begin_lanes(y, u, batch)
-        number, again = 0, False
-        while number < steps * substeps:
-            if number % substeps == 0:
-                time = batch.numbers[2] + number * batch.numbers[0]
-                blown = block.wind, y, body.controls, batch.gusts, start, time, block.work
-                blow_at(batch.blow, blown)
-            substep(block, plan, h, number, options)
-            number, again = lanes_contact.meet_substep(
-                y, u, before, batch, start, number, substeps, h, again
-            )
-        kernels.store_lanes(batch.new_x, y, start)
-        kernels.store_lanes(batch.new_v, u, start)
+
+    @kernel
+    def advance(
+        first: Any,
+        last: Any,
+        plan: Any,
+        batch: Any,
+        steps: Any,
+        substeps: Any,
+        options: Any,
+        scratch: Any = 0,
+    ) -> None:
+        body, h = plan.body, batch.x.dtype.type(batch.numbers[0])
+        for start in range(first, last, batch.width):
+            block = load_block(batch, body, start, last, scratch)
+            y, u = block.y, block.u
+            before = lanes_contact.begin_lanes(y, u, batch)
+            number, again = 0, False
+            while number < steps * substeps:
+                if number % substeps == 0:
+                    time = batch.numbers[2] + number * batch.numbers[0]
+                    blown = block.wind, y, body.controls, batch.gusts, start, time, block.work
+                    blow_at(batch.blow, blown)
+                substep(block, plan, h, number, options)
+                number, again = lanes_contact.meet_substep(
+                    y, u, before, batch, start, number, substeps, h, again
+                )
+            kernels.store_lanes(batch.new_x, y, start)
+            kernels.store_lanes(batch.new_v, u, start)
+
+    return advance
 
 
 @kernel

@@ -33,9 +33,9 @@ from drapery.cloth.solvers.driver import (
     KernelSolver,
     SolverState,
     add_loads,
-    advance_blocks,
     body_of,
     check_common,
+    loop_around,
 )
 from drapery.cloth.strain import allowed_stretch, strain_limit
 from drapery.errors import counted
@@ -369,6 +369,9 @@ def _substep(block: Any, plan: Any, h: Any, number: Any, options: Any) -> None:
     kernels.set_velocities(u, y, old, h)
 
 
+_advance_blocks = loop_around(_substep)
+
+
 @entry_point
 def _advance(
     first: Any,
@@ -382,4 +385,4 @@ def _advance(
 ) -> None:
     """Steps of lanes first..last."""
     given, scratch = (iterations, tolerance), 4 * batch.x.shape[0] + 5 * plan.body.springs.rest.size
-    advance_blocks(first, last, plan, batch, steps, substeps, _substep, given, scratch)
+    _advance_blocks(first, last, plan, batch, steps, substeps, given, scratch)

@@ -34,9 +34,9 @@ from drapery.cloth.solvers.driver import (
     KernelSolver,
     SolverState,
     add_loads,
-    advance_blocks,
     body_of,
     check_common,
+    loop_around,
     movable,
 )
 from drapery.cloth.strain import allowed_stretch, strain_limit
@@ -289,6 +289,9 @@ def _substep(block: Any, plan: Any, h: Any, number: Any, options: Any) -> None:
     kernels.set_velocities(u, y, old, h)
 
 
+_advance_blocks = loop_around(_substep)
+
+
 @entry_point
 def _advance(
     first: Any,
@@ -301,4 +304,4 @@ def _advance(
     sweeps: Any,
 ) -> None:
     """Steps of lanes first..last."""
-    advance_blocks(first, last, plan, batch, steps, substeps, _substep, (passes, sweeps))
+    _advance_blocks(first, last, plan, batch, steps, substeps, (passes, sweeps))

@@ -28,12 +28,12 @@ from drapery.cloth.solvers.driver import (
     ClothBody,
     KernelSolver,
     SolverState,
-    advance_blocks,
     body_of,
     check_common,
     chosen_substeps,
     half_shares,
     kick,
+    loop_around,
     movable,
 )
 from drapery.cloth.strain import allowed_stretch, strain_limit
@@ -126,9 +126,12 @@ def _substep(block: Any, plan: Any, h: Any, number: Any, options: Any) -> None:
     kick(block, body, half)
 
 
+_advance_blocks = loop_around(_substep)
+
+
 @entry_point
 def _advance(
     first: Any, last: Any, plan: Any, batch: Any, steps: Any, substeps: Any, sweeps: Any
 ) -> None:
     """Steps of lanes first..last."""
-    advance_blocks(first, last, plan, batch, steps, substeps, _substep, (sweeps,))
+    _advance_blocks(first, last, plan, batch, steps, substeps, (sweeps,))
