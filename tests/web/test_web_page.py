@@ -156,7 +156,8 @@ def test_a_package_names_its_files(
     parts = "", "-still", "-fabrics"
     scenes = {f"{name}{part}.bin" for name in page.PLACEMENTS for part in parts}
     words = {f"{code}.bin" for code in languages() if code != "en"} | {"words.bin"}
-    assert files == scenes | players | words | {"cloth.bin", "shield.bin"}
+    wearers = {"wearer.bin", "wearer-slim.bin"}  # of the designer
+    assert files == scenes | players | wearers | words | {"cloth.bin", "shield.bin"}
     assert set(made) == files | named | {"README.md", "package.json"}
     for module in ("drapery-banner.js", "drapery-designer.js"):
         found = re.findall(
@@ -168,7 +169,7 @@ def test_a_package_names_its_files(
     )
     held = {name: base64.b64decode(text) for name, text in inline.items()}
     assert len(held.pop("cloth.bin")) < len(made["cloth.bin"]), "it has no players"
-    assert held == {name: made[name] for name in files - players - {"cloth.bin"}}
+    assert held == {name: made[name] for name in files - players - wearers - {"cloth.bin"}}
 
 
 @pytest.mark.skipif(NODE is None, reason="node is not installed (apt: nodejs)")
