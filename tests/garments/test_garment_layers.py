@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from drapery.cloth import Collisions, State, grid, rotation_about, sew
+from drapery.cloth import Collisions, State, grid, max_stretch, rotation_about, sew
 from drapery.cloth.collisions import contact_stage
 from drapery.garments import SewnCloth, dressed_player, find_garment, make_wearer, tailor
 from drapery.garments.layering import outermost, put_outside, sampled
@@ -134,6 +134,15 @@ def test_garments_of_one_wearer_do_not_pass_through_each_other() -> None:
         Schedule.at(times[:2], dressed.step)
     )
     assert np.array_equal(again[1], other[:2])
+
+
+def test_a_poncho_is_not_torn_by_a_head_that_tilts_back() -> None:
+    """Its neck is held by the body, and would be inside of the head."""
+    player = dressed_player(make_wearer(motion="glide"), wear=("poncho",))
+    dressed = Dressed(player, open_packs(()), player.settings())
+    (sheets,) = dressed.record(Schedule.at([0.5, 1.0], dressed.step))
+    (sewn,) = dressed.cloths
+    assert max(max_stretch(sheet, sewn.cloth) for sheet in sheets) < 0.16
 
 
 def test_the_hem_of_a_skirt_on_a_runner_lies_in_folds_and_swings() -> None:
