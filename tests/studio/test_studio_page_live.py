@@ -218,6 +218,19 @@ def test_another_thickness_goes_on_with_the_motion_and_the_view(page: Any) -> No
     assert ask(page, "players[0].header.vertices") == vertices
 
 
+def test_another_design_on_a_cape_goes_on_with_the_motion(page: Any) -> None:
+    garments = page.find_element(By.XPATH, "//label[starts-with(., 'Garment')]/select")
+    wait_until(lambda: "cape" in garments.text)
+    page.execute_script(
+        "arguments[0].value = 'cape'; arguments[0].dispatchEvent(new Event('change'))", garments
+    )
+    wait_until(lambda: ask(page, "players[0]?.header.textures") and ask(page, "time") > 1)
+    page.execute_script(f"{VIEWER}.before = {VIEWER}.players[0]")
+    page.execute_script("document.querySelector('[data-pattern=creeper]').click()")
+    wait_until(lambda: ask(page, "players[0] !== viewer.before"))
+    assert ask(page, "time") > 1
+
+
 def test_a_garment_of_ones_own_is_sent_and_shown(page: Any, tmp_path: Path) -> None:
     wrong, right = tmp_path / "wrong.toml", tmp_path / "shawl.toml"
     wrong.write_text('piece = [{ name = "shawl", size = [8], points = [3, 3] }]')

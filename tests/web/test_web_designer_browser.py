@@ -471,3 +471,44 @@ def test_a_dropped_skin_shows_a_player_with_the_design_as_its_cape(
     press(chromium, ".bare")
     assert run(chromium, f"{shown}.localName") == "drapery-banner"
     assert told() == ""
+
+
+SILHOUETTE = """
+const [root, done] = arguments;
+(async () => {
+  const image = await createImageBitmap(await root.querySelector(".sky > :first-child").snapshot());
+  const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+  context.drawImage(image, 0, 0);
+  const { data } = context.getImageData(0, 0, image.width, image.height);
+  done(Array.from({ length: data.length / 4 }, (_, at) => Math.sign(data[4 * at + 3])).join(""));
+})();
+"""
+
+
+def test_an_edit_of_a_worn_design_leaves_motion_and_view(chromium: Any, site: str) -> None:
+    open_designer(chromium, f"{site}/#red")
+    resize(chromium, DESKTOP, moves=True)
+    root, shown = run(chromium, ROOT), f"{ROOT}.querySelector('.sky').firstChild"
+
+    def middle() -> list[int]:
+        colours: list[list[int]] = chromium.execute_async_script(COLOURS, root)
+        return colours[2]
+
+    def silhouette() -> str:
+        return str(chromium.execute_async_script(SILHOUETTE, root))
+
+    me = base64.b64encode(sheet(64, 0, 0, 255, 255)).decode()
+    chromium.execute_script(DROPPED, root, "me.png", me)
+    wait_until(lambda: run(chromium, f"{shown}.localName") == "drapery-wearer")
+    wait_until(lambda: middle()[0] > 100 > 2 * middle()[1])
+    run(chromium, f"{shown}.shadowRoot.querySelector('canvas').focus()")
+    ActionChains(chromium).send_keys(Keys.ARROW_LEFT).perform()
+    first = silhouette()
+    wait_until(lambda: silhouette() != first)
+    press(chromium, ".pause")
+    before = silhouette()
+    press(chromium, '[data-dye="lime"]')
+    press(chromium, '[data-pattern="base"]')
+    wait_until(lambda: middle()[1] > 120 > middle()[0])
+    assert silhouette() == before
+    resize(chromium, DESKTOP)

@@ -153,9 +153,12 @@ export class DraperyBanner extends Element {
     const start = ++this.#starts;
     this.#isStarting = true;
     try {
-      const [name, changes] = await this.source();
+      const [kind, { textures = {}, fabric = null }] = await this.source();
       const isWanted = () => start === this.#starts;
-      const player = await Player.open(this.#canvas, `${name}.bin`, this.getAttribute("design"), changes, isWanted);
+      const name = `${kind}.bin`;
+      const isOpen = this.#player?.name === name && this.#player.fabric === fabric;
+      if (isOpen && isWanted()) return this.#retexture(textures);
+      const player = await Player.open(this.#canvas, name, this.getAttribute("design"), { textures, fabric }, isWanted);
       if (isWanted()) this.#show(player);
       else player?.end();
     } catch (error) {
@@ -172,6 +175,13 @@ export class DraperyBanner extends Element {
     this.#canvas.hidden = !player;
     this.#slot.hidden = Boolean(player);
     if (player) this.#apply("view", "daylight", ...Object.keys(this.#wind));
+  }
+
+  // Other textures change neither the cloth nor the view.
+  #retexture(textures) {
+    this.#try((player) => player.retexture(textures));
+    this.#isChanged = true;
+    this.#apply();
   }
 
   // Do what attributes say. Only those that have changed are read: a wrong value is told once.

@@ -33,9 +33,9 @@ export class Player extends View {
     const fabrics = fabric === null ? [] : [name.replace(".", "-fabrics.")];
     const [scene, module, others] = await Promise.all([name, MODULE, ...fabrics].map(fileBytes));
     if (!isWanted()) return null;
-    const made = retextured(unpack(scene.buffer), textures);
-    const player = await this.made(canvas, made, module, text, (plan) => (others ? woven(plan, others, fabric) : plan));
-    player.isRetextured = Object.keys(textures).length > 0;
+    const player = await this.made(canvas, unpack(scene.buffer), module, text, (plan) => (others ? woven(plan, others, fabric) : plan));
+    Object.assign(player, { name, fabric });
+    if (Object.keys(textures).length) player.retexture(textures);
     return player;
   }
 
@@ -43,8 +43,8 @@ export class Player extends View {
   static async made(canvas, { header, arrays }, module, text, planOf = (plan) => plan) {
     const player = new this(canvas, header, arrays);
     player.setDesign(text);
-    const plans = header.grip.map((_, number) => planOf(arrays[`plan${number}`]));
-    player.cloths = await Promise.all(plans.map((plan) => Cloth.load(module, plan)));
+    player.plans = header.grip.map((_, number) => planOf(arrays[`plan${number}`]));
+    player.cloths = await Promise.all(player.plans.map((plan) => Cloth.load(module, plan)));
     player.restore();
     players.add(player);
     return player;
@@ -52,13 +52,21 @@ export class Player extends View {
 
   constructor(canvas, header, arrays) {
     super(canvas);
-    Object.assign(this, { header, arrays, given: {}, playing: false, owed: 0, moved: false, reach: 1, grab: null });
+    Object.assign(this, { header, arrays, scene: { header, arrays }, given: {}, playing: false, owed: 0, moved: false, reach: 1, grab: null });
     this.tint = header.tint;
     this.base = readCamera(header.camera);
   }
 
-  // Draw with a new context.
+  // Show other textures in place of the scene's own; the cloth goes on.
+  retexture(textures) {
+    Object.assign(this, retextured(this.scene, textures), { isRetextured: Object.keys(textures).length > 0 });
+    this.tables = this.tablesOf(this.design);
+    if (!sharedContext().isContextLost()) this.restore(); // else when it comes back
+  }
+
+  // Draw with a new context, or a new scene.
   restore() {
+    this.drawing?.free();
     this.drawing = new Drawing(sharedContext());
     const [materials, layers] = this.tables;
     this.drawing.setScene(this.header, { ...this.arrays, materials, layers });
@@ -77,7 +85,7 @@ export class Player extends View {
   setDesign(text) {
     if (text === this.text) return;
     const design = readDesign(text ?? "white");
-    this.tables = this.header.sheets ? this.tablesOf(design) : [this.arrays.materials, this.arrays.layers];
+    this.tables = this.tablesOf(design);
     Object.assign(this, { text, design });
     this.drawing?.setMaterials(...this.tables);
     wake(this);
@@ -87,6 +95,7 @@ export class Player extends View {
   // scene, one for each sheet, copied to the end of the table in the order of the design.
   tablesOf({ base, layers: patterns }) {
     const { materials, layers, vertexMaterials } = this.arrays;
+    if (!this.header.sheets) return [materials, layers];
     const flag = 4 * vertexMaterials[this.header.flag];
     const rows = [{ pattern: "" }, { pattern: "base", dye: base }, ...patterns].flatMap(({ pattern, dye }) => {
       const sheet = this.header.sheets.indexOf(pattern);
@@ -158,10 +167,12 @@ export class Player extends View {
   }
 
   // Go on with the motion of another player, if its cloth is like this one; whether it is.
-  follow({ cloths, moved, owed }) {
+  follow({ cloths, plans, moved, owed }) {
     const isLike = (cloth, before) => before && cloth.array("x").length === before.array("x").length && String(cloth.info.pins) === String(before.info.pins);
-    // The cloth of a wearer goes with the wearer's own motion.
-    if (!moved || this.header.textures || !this.cloths.length || !this.cloths.every((cloth, number) => isLike(cloth, cloths[number]))) return false;
+    // The cloth of a wearer goes with the wearer's own motion, of which a plan has all.
+    const isSame = (plan, number) => plan.length === plans[number]?.length && plan.every((byte, at) => byte === plans[number][at]);
+    const goesOn = this.header.textures ? this.plans.every(isSame) : this.cloths.every((cloth, number) => isLike(cloth, cloths[number]));
+    if (!moved || !this.cloths.length || !goesOn) return false;
     this.cloths.forEach((cloth, number) => cloth.goOn(cloths[number]));
     Object.assign(this, { moved, owed });
     this.upload();
