@@ -15,7 +15,6 @@ from drapery.banner import game_titles
 from drapery.studio.art import face_files
 from drapery.studio.document import Event
 from drapery.studio.session import Session
-from drapery.studio.share import motion_of
 from drapery.studio.sketch import edited_sketch, editor_tree
 from drapery.studio.translation import translated
 from drapery.studio.widgets import on, set_props
@@ -45,14 +44,14 @@ class DesignerElement(Element, component="designer.js"):
         self.props["module"] = viewer_address()
         self.props["given"] = {
             "design": editor_tree(session.sketch),
-            "motion": motion_of(session.settings),
+            "motion": session.motion,
             "language": _editor_language(session.language),
             "words": search_words(),
             "token": session.token,
         }
         session.follow(lambda: set_props(self, {"faces": face_files(session)}), "packs")
         self._session, self._due, self._answers = session, set[str](), False
-        events: tuple[Event, ...] = "laid", "settings"
+        events: tuple[Event, ...] = "laid", "settings", "scene"
         for event in events:
             session.listen(partial(self._tell_soon, event), event)
         on(self, "design", self._take)
@@ -63,6 +62,7 @@ class DesignerElement(Element, component="designer.js"):
         try:
             self._session.take(edited_sketch(tree))
             if tree.get("motion") is not None:
+                self._tell_soon("settings")  # what it is here, also where it is refused
                 self._session.move(tree["motion"])
         finally:
             self._answers = False
@@ -78,7 +78,7 @@ class DesignerElement(Element, component="designer.js"):
         session = self._session
         if not session.closed:
             design = editor_tree(session.sketch) if "laid" in due else None
-            self.run_method("lay", design, motion_of(session.settings), due == {"answer"})
+            self.run_method("lay", design, session.motion, due == {"answer"})
 
 
 EDITOR_TEXTS = {

@@ -1,19 +1,29 @@
 """The session of one browser tab (its document and all that serves it), and all open sessions."""
 
 import secrets
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from drapery import DesignError, DraperyError, Settings
+from drapery.garments import garment_names, skin_names
+from drapery.scenes import scene_names
 from drapery.studio.document import Document, Event
 from drapery.studio.exports import Exports, ExportSlots
 from drapery.studio.garment_store import GarmentStore
 from drapery.studio.kept_work import KeptWork, Work
 from drapery.studio.pack_store import PackStore
-from drapery.studio.share import MOVED, SHARED, read_link, settings_of, with_shared
+from drapery.studio.share import (
+    MOVED,
+    SHARED,
+    as_json,
+    motion_of,
+    read_link,
+    settings_of,
+    with_shared,
+)
 from drapery.studio.sketch import MAX_ORIGIN, Sketch
 from drapery.studio.upload_queue import UploadQueue
 from drapery.studio.uploads import Uploads
@@ -104,13 +114,39 @@ class Session(Document):
         self.adjust(**{name: chosen.as_given(name) for name in SHARED})
         self.lay_out(sketch)
 
-    def move(self, words: object) -> None:
-        """Take the options of a step of the page's history, as `motion_of` has them.
+    @property
+    def motion(self) -> dict[str, Any]:
+        """What the page's editor keeps beside each design, so that it can be undone, as JSON.
 
-        Raises DesignError for any other options.
+        `motion_of` the settings; `shown`: what is seen in place of the banner, by its kind, and
+        `banner`: the options that the banner has again afterwards.
         """
-        chosen = with_shared(self.settings, settings_of(words))
+        request, banner = self.viewport.request, self.viewport.banner_options
+        shown = {**request.shown, "banner": as_json(banner)} if request.shown else {}
+        return motion_of(self.settings) | ({"shown": shown} if shown else {})
+
+    def move(self, words: object) -> None:
+        """Take a step of the page's history, as `motion` has it.
+
+        Raises DesignError for anything else, and for a file that is not here any more; then nothing
+        changes.
+        """
+        if not isinstance(words, dict) or not isinstance(words.get("shown", {}), dict):
+            raise DesignError("the page has sent no options; reload it")
+        shown = {**words.get("shown", {})}
+        options = {name: value for name, value in words.items() if name != "shown"}
+        chosen = with_shared(self.settings, settings_of(options))
+        banner = shown.pop("banner", {})
+        before = settings_of(banner)
+        own = self.garment_store.names
+        known: dict[str, Callable[[], Iterable[str]]]
+        known = {"scene": scene_names, "garment": garment_names, "skin": skin_names}
+        for kind, name in shown.items():
+            if kind not in known or name not in [*known[kind](), *own]:
+                raise DesignError("what was shown is not here any more; send its file again")
         self.adjust(**{name: chosen.as_given(name) for name in MOVED})
+        self.viewport.banner_options = {name: before.as_given(name) for name in banner}
+        self.viewport.update(**{kind: shown.get(kind) for kind in known})
 
     def lay_out(self, sketch: Sketch, *, same: bool = False) -> None:
         """Replace the design; this can be undone.

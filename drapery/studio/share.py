@@ -6,6 +6,7 @@ never names a file: it leaves out packs, textures, and styles that are not names
 
 import json
 import warnings
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -88,10 +89,14 @@ def options_of(settings: Settings) -> dict[str, Any]:
     """The shared options that differ from their default, by name, as JSON."""
     chosen = {name: settings.as_given(name) for name in SHARED}
     chosen["style"] = tuple(filter(_is_name, _styles(settings)))
+    own = {name: value for name, value in chosen.items() if value != NAMED_OPTIONS[name].default}
+    return as_json(own)
+
+
+def as_json(options: Mapping[str, Any]) -> dict[str, Any]:
+    """The same options as `settings_of` reads them."""
     return {
-        name: list(value) if isinstance(value, tuple) else value
-        for name, value in chosen.items()
-        if value != NAMED_OPTIONS[name].default
+        name: list(value) if isinstance(value, tuple) else value for name, value in options.items()
     }
 
 

@@ -37,12 +37,13 @@ export class StudioDesigner {
   }
 
   // The history of a work. It goes on from the page that was loaded before at this place of the browser's
-  // history; a work that is not in it, of an address, becomes its last step.
+  // history; a work that is not in it, of an address, becomes its last step. No address says what is shown in
+  // place of the banner.
   opened(work) {
     const { token, history } = kept(() => JSON.parse(sessionStorage.getItem(KEPT))) ?? {};
     const before = token === window.studio.earlier && History.read(history, () => true); // the server knows options
     if (!before) return new History(work);
-    const plain = (each) => JSON.stringify({ ...designOf(each), layers: workOf(each).layers, origin: 0, motion: each.motion });
+    const plain = (each) => JSON.stringify({ ...designOf(each), layers: workOf(each).layers, origin: 0, motion: { ...each.motion, shown: null } });
     if (![before.work, ...before.past, ...before.future].map(plain).includes(plain(work))) before.change(work);
     return before;
   }
@@ -84,10 +85,11 @@ export class StudioDesigner {
   lay(design, motion, isAnswer) {
     const { history, work } = this.editor;
     this.heard = JSON.stringify(motion);
-    const names = Object.keys({ ...work.motion, ...motion }).filter((name) => String(work.motion[name]) !== String(motion[name]));
+    const names = Object.keys({ ...work.motion, ...motion }).filter((name) => JSON.stringify(work.motion[name]) !== JSON.stringify(motion[name]));
+    const isSlid = names.every((name) => typeof (motion[name] ?? work.motion[name]) === "number");
     if (isAnswer) history.work = { ...work, motion };
     else if (design) this.editor.begin(workOf(design, {}, motion));
-    else this.editor.change({ ...work, motion }, `motion ${names}`);
+    else this.editor.change({ ...work, motion }, isSlid ? `motion ${names}` : "");
     if (isAnswer || this.editor.work === work) this.announce(); // the server may have heard of another one since
   }
 

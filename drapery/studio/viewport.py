@@ -72,9 +72,10 @@ class ViewportRequest:
     beside: tuple[str | Path, ...] | None = None
 
     @property
-    def shown(self) -> tuple[str | None, ...]:
-        """What takes the place of the banner, if anything does."""
-        return self.scene, self.garment, self.skin
+    def shown(self) -> dict[str, str]:
+        """What takes the place of the banner, by its kind."""
+        found = {"scene": self.scene, "garment": self.garment, "skin": self.skin}
+        return {kind: name for kind, name in found.items() if name}
 
 
 class Viewport:

@@ -202,6 +202,47 @@ def test_undo_brings_back_wind_and_view_between_edits(page: Any) -> None:
         stands(*wanted)
 
 
+CHOOSE = """
+const labels = [...document.querySelectorAll("label")];
+const field = labels.find((e) => e.innerText.startsWith(arguments[0])).querySelector("select");
+field.value = arguments[1];
+field.dispatchEvent(new Event("change", { bubbles: true }));
+"""
+CHOSEN = """
+const labels = [...document.querySelectorAll(".live-bar label")];
+const { wind } = document.querySelector(".viewer").viewer.state;
+return [wind, ...labels.map((each) => each.querySelector("select").value)];
+"""
+
+
+def test_undo_brings_back_garment_skin_and_scene_with_the_options_of_the_banner(page: Any) -> None:
+    def stands(*wanted: object) -> None:
+        wait_until(lambda: page.execute_script(CHOSEN) == [*wanted])
+
+    states: list[tuple[object, ...]] = [(4, "", "", "")]
+    for label, name, *shown in (
+        ("Garment", "cape", 0.5, "", "cape", ""),
+        ("Garment", "pennon", 7, "", "pennon", ""),
+        ("Skin", "traveller", 7, "", "pennon", "traveller"),
+        ("Scene", "fold", 4, "fold", "", ""),
+    ):
+        wait_until(lambda name=name: page.find_elements("css selector", f"option[value={name}]"))
+        page.execute_script(CHOOSE, label, name)
+        states.append((*shown,))
+        stands(*shown)
+    for way, wanted in (("Undo", states[-2::-1]), ("Redo", states[1:3])):
+        for state in wanted:
+            click(page, f"button[aria-label={way}]")
+            stands(*state)
+    wait_until(lambda: "?d=" in page.current_url)
+    page.refresh()
+    wait_until(lambda: page.execute_script("return !!window.studio?.ready"))
+    stands(*states[2])
+    page.execute_script(CHOOSE, "Garment", "")
+    stands(4, "", "", "")
+    assert console_errors(page) == []
+
+
 CUT = """
 const cut = [];
 for (const each of document.querySelectorAll(".live-bar *, #panel-motion *")) {

@@ -3,6 +3,7 @@
 import asyncio
 import gzip
 import io
+import json
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,7 +16,7 @@ from pack_maker import BANNER, META, mcmeta, noise, png, zip_pack
 from PIL import Image
 from starlette.testclient import TestClient
 
-from drapery import Banner, OptionError, draw
+from drapery import Banner, DesignError, OptionError, draw
 from drapery.settings import Settings
 from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.panels.live import show_scene, wear
@@ -166,6 +167,25 @@ def test_a_shield_comes_back_from_a_garment_without_the_wall_of_its_banner() -> 
     session.edit(Sketch(kind="shield"))
     wear(session, None)
     assert session.settings.placement == "standing" and session.settings.facing is None
+    session.close()
+
+
+def test_a_step_of_the_history_brings_back_what_was_worn(tmp_path: Path) -> None:
+    session = Session(Settings(wind=9, placement="wall", facing="east"))
+    steps = [session.motion]
+    for names in ({"garment": "cape"}, {"garment": "pennon", "skin": "traveller"}):
+        wear(session, **names)
+        steps.append(session.motion)
+    for step in (*reversed(steps), *steps):
+        session.move(json.loads(json.dumps(step)))
+        assert session.motion == step
+    wear(session, None)
+    assert session.motion == steps[0]
+    private = tmp_path / "own.toml"
+    for wrong in ("cape", {"garment": str(private)}, {"pack": "x"}, {"garment": ["cape"]}):
+        with pytest.raises(DesignError):
+            session.move({"wind": 3, "shown": wrong})
+    assert session.motion == steps[0]
     session.close()
 
 
