@@ -23,6 +23,20 @@ function earlierSession() {
   }
 }
 
+// Tell the server, in order, once the whole page is there.
+const whole = new Promise((resolve) => {
+  const waiting = setInterval(() => {
+    if (!studio.ready) return;
+    clearInterval(waiting);
+    resolve();
+  }, 30);
+});
+
+async function tell(name, detail) {
+  await whole;
+  root().dispatchEvent(new CustomEvent(name, { detail }));
+}
+
 // What this browser remembers. Without storage, it lasts as long as the page.
 const store = {
   get(name) {
@@ -189,7 +203,7 @@ document.addEventListener("click", (event) => {
 document.addEventListener("paste", (event) => {
   if (typing(event.target)) return;
   const text = event.clipboardData.getData("text/plain");
-  if (text.trim()) root()?.dispatchEvent(new CustomEvent("pasted", { detail: text }));
+  if (text.trim()) tell("pasted", text);
 });
 
 // Files may be dropped anywhere: their fields take them.
@@ -228,13 +242,9 @@ document.addEventListener("input", (event) => {
 // A page that is loaded again goes on from its earlier session, which the browser's history names.
 function resume() {
   history.replaceState({ session: root().dataset.token }, "");
-  const waiting = setInterval(() => {
-    if (!studio.ready) return;
-    clearInterval(waiting);
-    followConnection();
-    if (studio.earlier) root().dispatchEvent(new CustomEvent("resume", { detail: studio.earlier }));
-    root().dispatchEvent(new CustomEvent("recent", { detail: recent().map((each) => each.link) }));
-  }, 30);
+  whole.then(followConnection);
+  if (studio.earlier) tell("resume", studio.earlier);
+  tell("recent", recent().map((each) => each.link));
 }
 
 // Without the connection only the design can be edited: of all else the server would not hear.

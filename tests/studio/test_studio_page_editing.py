@@ -243,6 +243,28 @@ def test_undo_brings_back_garment_skin_and_scene_with_the_options_of_the_banner(
     assert console_errors(page) == []
 
 
+EARLY = """
+const waiting = setInterval(() => {
+  if (!window.studio) return;
+  clearInterval(waiting);
+  const data = new DataTransfer();
+  data.setData("text/plain", "blue skull:white");
+  const paste = new ClipboardEvent("paste", { clipboardData: data, bubbles: true });
+  document.body.dispatchEvent(paste);
+}, 1);
+"""
+
+
+def test_a_text_pasted_before_the_page_is_whole_is_read(chromium: Any, studio: Studio) -> None:
+    resize(chromium, WIDE)
+    added = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": EARLY})
+    try:
+        open_page(chromium, studio)
+        is_now(chromium, "blue skull:white")
+    finally:
+        chromium.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+
+
 CUT = """
 const cut = [];
 for (const each of document.querySelectorAll(".live-bar *, #panel-motion *")) {
