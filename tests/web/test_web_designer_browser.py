@@ -394,15 +394,35 @@ def test_all_patterns_are_on_one_screen_and_no_page_is_too_wide(chromium: Any, s
         assert run(chromium, rows) == (1 if size[0] > 320 else 2)
 
 
+CUT = """
+const [root] = arguments;
+const cut = [...root.querySelectorAll("select")].filter((each) => {
+  const alone = each.cloneNode();
+  alone.append(each.selectedOptions[0].cloneNode(true));
+  alone.style.inlineSize = "auto";
+  each.parentElement.append(alone);
+  const is = getComputedStyle(each).opacity > 0 && alone.offsetWidth > each.offsetWidth;
+  alone.remove();
+  return is;
+});
+const { content } = getComputedStyle(root.querySelector(".language"), "::before");
+return [JSON.parse(content), cut.map((each) => each.selectedOptions[0].text)];
+"""
+"""What stands for the chosen language on a phone, and lists whose chosen words are cut."""
+
+
 def test_a_language_is_chosen_and_kept(chromium: Any, site: str) -> None:
     open_designer(chromium, site)
     title = f"{ROOT}.querySelector('h1').textContent"
     assert run(chromium, title) == "Banner designer"
     chromium.execute_script(
-        f"const menu = {ROOT}.querySelector('.language'); menu.value = 'de';"
+        f"const menu = {ROOT}.querySelector('.language select'); menu.value = 'de';"
         "menu.dispatchEvent(new Event('change'));"
     )
     wait_until(lambda: run(chromium, title) == "Banner-Designer")
+    resize(chromium, PHONE)
+    assert chromium.execute_script(CUT, run(chromium, ROOT)) == ["de", []]
+    resize(chromium, DESKTOP)
     assert run(chromium, f"{ROOT}.querySelector('[data-dye]').title") == "Weiß"
     chromium.get("about:blank")
     chromium.get(site)

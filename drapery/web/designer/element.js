@@ -196,12 +196,12 @@ export class DraperyDesigner extends Element {
     const { say } = this.#editor;
     this.#editor.build();
     const { parts } = this.#editor;
-    const language = make("select", { class: "language", "aria-label": say("language"), onchange: () => this.#changeLanguage(language.value) },
+    const language = make("select", { "aria-label": say("language"), onchange: () => this.#changeLanguage(language.value) },
       ...Object.entries({ en: "English", ...LANGUAGES }).map(([value, name]) => make("option", { value, selected: value === this.#editor.language.code }, name)));
     this.#ui = { language };
     const bar = make("header", { class: "bar" },
       make("h1", {}, say("title")), parts.status,
-      make("div", { class: "tools", role: "toolbar", "aria-label": say("title") }, parts.undo, parts.redo, parts.random, parts.clear, parts.kind, language));
+      make("div", { class: "tools", role: "toolbar", "aria-label": say("title") }, parts.undo, parts.redo, parts.random, parts.clear, parts.kind, make("span", { class: "language", "data-code": this.#editor.language.code }, language)));
     const dyes = make("section", { class: "dyes", "aria-label": say("dyes") }, ...parts.dyes);
     const made = parts.patterns && make("section", { class: "make", "aria-label": say("patterns") }, ...parts.patterns);
     const app = make("div", { class: "app", lang: this.#editor.language.code, onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event), ondragover: (/** @type {DragEvent} */ event) => event.preventDefault(), ondrop: this.#drop },
