@@ -2,11 +2,13 @@
 
 import ast
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from importlib import import_module
+from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 from public_api import PACKAGES
@@ -93,52 +95,117 @@ def ring_of(package: str) -> int:
     return next(number for number, ring in enumerate(RINGS) if package in ring)
 
 
+class Source(NamedTuple):
+    """What the tests ask of one file, so that each is parsed once.
+
+    imports: names of modules, and of names within modules. typed: those for type checkers too.
+    named: the modules and names of `from … import …`. functions: of the module itself. classes: of
+    any depth. changes: the lines that set an attribute or item of a module that is imported.
+    """
+
+    imports: frozenset[str]
+    typed: frozenset[str]
+    named: tuple[tuple[str, str], ...]
+    functions: frozenset[str]
+    classes: tuple[str, ...]
+    changes: tuple[str, ...]
+
+
+@cache
+def source_of(path: Path) -> Source:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    nodes = list(ast.walk(tree))
+    named = [node for node in nodes if isinstance(node, ast.ImportFrom)]
+    return Source(
+        frozenset(_imported(_running(tree))),
+        frozenset(_imported(nodes)),
+        tuple((node.module or "", alias.name) for node in named for alias in node.names),
+        frozenset(node.name for node in tree.body if isinstance(node, ast.FunctionDef)),
+        tuple(node.name for node in nodes if isinstance(node, ast.ClassDef)),
+        tuple(_changes(tree)),
+    )
+
+
 def _for_types_only(node: ast.AST) -> bool:
     return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
 
 
-def _running(node: ast.AST) -> Iterator[ast.AST]:
+def _running(tree: ast.AST) -> Iterator[ast.AST]:
     """All nodes below, those of imports for type checkers left out."""
-    for child in ast.iter_child_nodes(node):
-        if not _for_types_only(child):
-            yield child
-            yield from _running(child)
+    left = [tree]
+    while left:
+        for child in ast.iter_child_nodes(left.pop()):
+            if not _for_types_only(child):
+                yield child
+                left.append(child)
 
 
-@cache
+def _imported(nodes: Iterable[ast.AST]) -> Iterator[str]:
+    for node in nodes:
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                yield inner if inner in modules() else "." * node.level + (node.module or "")
+
+
+def _changes(tree: ast.Module) -> Iterator[str]:
+    imported = {
+        alias.asname or alias.name.partition(".")[0]
+        for node in tree.body
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        for alias in node.names
+    }
+    for node in tree.body:
+        if isinstance(node, ast.Assign | ast.AugAssign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            for target in targets:
+                if isinstance(target, ast.Attribute | ast.Subscript):
+                    named = {part.id for part in ast.walk(target) if isinstance(part, ast.Name)}
+                    if named & imported:
+                        yield f"line {node.lineno}: {ast.unparse(node)}"
+
+
 def imports_of(name: str, types: bool = False) -> frozenset[str]:
     """The modules of ours that a module imports, at any depth of its code.
 
     types: count imports for type checkers too.
     """
-    found: set[str] = set()
-    tree = ast.parse(modules()[name].read_text(encoding="utf-8"))
-    for node in ast.walk(tree) if types else _running(tree):
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"{name}: write imports from the top"
-            for alias in node.names:
-                inner = f"{node.module}.{alias.name}"
-                found.add(inner if inner in modules() else node.module or "")
-    return frozenset(target for target in found if target in modules())
+    source = source_of(modules()[name])
+    return (source.typed if types else source.imports) & modules().keys()
 
 
-@pytest.mark.parametrize("name", sorted(modules()))
-def test_imports_lead_inwards(name: str) -> None:
+def test_imports_are_written_from_the_top() -> None:
+    assert [
+        f"{name}: {target}"
+        for name, path in modules().items()
+        for target in source_of(path).typed
+        if target.startswith(".")
+    ] == []
+
+
+def test_imports_lead_inwards() -> None:
+    assert [fault for name in modules() for fault in _outward(name)] == []
+
+
+def _outward(name: str) -> Iterator[str]:
     package = package_of(name)
     if package == "__init__":
         return
-    assert package in ALLOWED, f"{package} has no place in the import contract"
-    for target in imports_of(name):
+    if package not in ALLOWED:
+        yield f"{package} has no place in the import contract"
+        return
+    for target in sorted(imports_of(name)):
         other = package_of(target)
         if other in (package, "__init__"):
             continue
-        assert ring_of(other) <= ring_of(package), f"{name} -> {target}: outwards"
-        if ring_of(other) == ring_of(package):
-            assert other in ALLOWED[package], f"{name} -> {target}: not in the contract"
-        if package in KNOWS_NO_SETTINGS:
-            assert other not in ("settings", "options", "option"), f"{name} -> {target}"
+        if ring_of(other) > ring_of(package):
+            yield f"{name} -> {target}: outwards"
+        elif ring_of(other) == ring_of(package) and other not in ALLOWED[package]:
+            yield f"{name} -> {target}: not in the contract"
+        if package in KNOWS_NO_SETTINGS and other in ("settings", "options", "option"):
+            yield f"{name} -> {target}: has no settings"
 
 
 def test_no_modules_import_each_other_in_a_circle_for_types_either() -> None:
@@ -169,16 +236,14 @@ def test_applications_import_from_public_modules(package: str) -> None:
 @pytest.mark.parametrize("package", sorted(APPLICATIONS))
 def test_applications_import_public_names(package: str) -> None:
     private = [
-        f"{name} -> {node.module}.{alias.name}"
+        f"{name} -> {module}.{each}"
         for name, path in modules().items()
         if package_of(name) == package
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.ImportFrom)
-        and node.module in PACKAGES
-        and package_of(node.module) not in APPLICATIONS
-        for alias in node.names
-        if f"{node.module}.{alias.name}" not in SHARED.union(PACKAGES)
-        and alias.name not in import_module(node.module).__all__
+        for module, each in source_of(path).named
+        if module in PACKAGES
+        and package_of(module) not in APPLICATIONS
+        and f"{module}.{each}" not in SHARED.union(PACKAGES)
+        and each not in import_module(module).__all__
     ]
     assert not private
 
@@ -206,56 +271,43 @@ def test_every_package_is_installed() -> None:
 def test_no_module_has_the_name_of_its_function() -> None:
     for name, path in modules().items():
         own = name.rsplit(".", 1)[-1]
-        functions = {
-            node.name
-            for node in ast.parse(path.read_text(encoding="utf-8")).body
-            if isinstance(node, ast.FunctionDef)
-        }
+        functions = source_of(path).functions
         assert own not in functions, f"{name} holds a function of its own name"
 
 
-@pytest.mark.parametrize("name", sorted(modules()))
-def test_an_import_changes_no_other_module(name: str) -> None:
+def test_an_import_changes_no_other_module() -> None:
     """Kernels that were made after such a change wrote outside of memory, in other tests."""
-    tree = ast.parse(modules()[name].read_text(encoding="utf-8"))
-    imported = {
-        alias.asname or alias.name.partition(".")[0]
-        for node in tree.body
-        if isinstance(node, ast.Import | ast.ImportFrom)
-        for alias in node.names
-    }
-    for node in tree.body:
-        if isinstance(node, ast.Assign | ast.AugAssign | ast.AnnAssign):
-            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            for target in targets:
-                if isinstance(target, ast.Attribute | ast.Subscript):
-                    named = {part.id for part in ast.walk(target) if isinstance(part, ast.Name)}
-                    assert not named & imported, f"{name} line {node.lineno}: {ast.unparse(node)}"
+    assert [
+        f"{name} {change}" for name, path in modules().items() for change in source_of(path).changes
+    ] == []
 
 
 def test_class_names_are_unique() -> None:
     places: dict[str, list[str]] = {}
     for folder in FOLDERS.values():
         for path in sorted(folder.rglob("*.py")):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.ClassDef):
-                    places.setdefault(node.name, []).append(f"{path.relative_to(ROOT)}")
+            for name in source_of(path).classes:
+                places.setdefault(name, []).append(f"{path.relative_to(ROOT)}")
     assert not {name: found for name, found in places.items() if len(found) > 1}
 
 
-@pytest.mark.parametrize("name", sorted(set(modules()) - {"drapery.__main__"}))
-def test_defaults_of_dataclasses_can_be_hashed(name: str) -> None:
+def test_defaults_of_dataclasses_can_be_hashed() -> None:
     """Python 3.11 refuses a default whose type has no hash, such as MappingProxyType."""
-    classes = [each for each in vars(import_module(name)).values() if isinstance(each, type)]
+    classes = {
+        each
+        for name in sorted(set(modules()) - {"drapery.__main__"})
+        for each in vars(import_module(name)).values()
+        if isinstance(each, type) and is_dataclass(each)
+    }
     faults = [
-        f"{each.__name__}.{field.name}"
-        for each in filter(is_dataclass, classes)
+        f"{each.__module__}.{each.__name__}.{field.name}"
+        for each in classes
         for field in fields(each)
         if not (
             field.default is MISSING or isinstance(field.default, tuple) or _has_hash(field.default)
         )
     ]
-    assert not faults, f"{faults}: use field(default_factory=...)"
+    assert not faults, f"{sorted(faults)}: use field(default_factory=...)"
 
 
 def _has_hash(value: object) -> bool:
