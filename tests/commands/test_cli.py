@@ -325,7 +325,9 @@ def test_an_error_that_cannot_be_printed_keeps_its_exit_code() -> None:
 @pytest.mark.parametrize("name, code", [("SIGTERM", 143), ("SIGHUP", 129), ("SIGINT", 130)])
 def test_a_stopped_animation_leaves_no_partial_file(tmp_path: Path, name: str, code: int) -> None:
     target = "frames/" if name == "SIGHUP" else "out.gif"
+    # Its motion is short, its frames many.
     words = ["animate", "white", "-o", target, "--size", "256x256", "--seconds", "9"]
+    words += ["--grid", "4x7"]
     line = [sys.executable, "-m", "drapery", *words]
     run = subprocess.Popen(line, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     end = time.monotonic() + 120

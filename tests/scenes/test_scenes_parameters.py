@@ -25,6 +25,9 @@ SLOW = {
 }
 """Parameters whose highest values take too long for a test."""
 SMALL = {
+    "banner": {"left_grid": "2x3", "middle_grid": "3x5", "right_grid": "2x3"},
+    "cape-pixel": {"grid": "2x3"},
+    "skirt": {"panels": "4", "rows": "2"},
     "stress": {"side": "2", "settle": "0.1"},
     "freefall": {"grid": "4x4"},
     "wireframe": {"left": "3x3", "right": "4x4"},
