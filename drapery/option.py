@@ -306,7 +306,7 @@ def within(option: str, value: Any, least: float, most: float, unit: str = "") -
         raise OptionError(f"{option} {shown(value)} is not a number; use {allowed}")
     # A whole number may be too large for a float, and NaN fails each comparison.
     is_whole = isinstance(value, int | Integral)
-    if not (least <= value <= most) or (not is_whole and math.isinf(value)):
+    if not value <= most or value < least or (not is_whole and math.isinf(value)):
         allowed = limits(least, most, unit)
         raise OptionError(f"{option} {shown(value)} is out of range; use {allowed}")
 

@@ -58,7 +58,7 @@ def _reported_compiling(send: Callable[[Any], None]) -> Iterator[None]:
     """Report when kernels are compiled. A kernel that another one calls is compiled within it."""
     from numba.core import event
 
-    class Reporter(event.Listener):
+    class Reporter(event.Listener):  # type: ignore[misc]
         depth = 0
 
         def on_start(self, event: Any) -> None:

@@ -57,7 +57,7 @@ def _as_in_python(kind: Any) -> Any:
 def call_at_first_compile(begin: Callable[[Any], None]) -> Callable[[], None]:
     """Call `begin` with the first function that is compiled. The result ends this."""
 
-    class FirstCompile(event.Listener):
+    class FirstCompile(event.Listener):  # type: ignore[misc]
         called = False
 
         def on_start(self, event: Any) -> None:
