@@ -99,7 +99,9 @@ def contact(name: str, moments: int) -> None:
             deepest(sewn, sheet[number], dressed.colliders(sewn), time)
             for sewn, sheet in zip(dressed.cloths, sheets, strict=True)
         )
-        for sheets in [dressed.record(Schedule.at(times, dressed.step))]
+        for sheets in [
+            dressed.record(Schedule.at(times, dressed.step, every=round(1 / (20 * dressed.step))))
+        ]
         for number, time in enumerate(times)
     ]
     inside = sum(depth > 0 for depth in depths)

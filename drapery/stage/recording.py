@@ -72,13 +72,15 @@ class Schedule:
         return Schedule(1 / (fps * steps), steps, moments, times, fps, fade)
 
     @staticmethod
-    def at(times: Sequence[float], step: float) -> "Schedule":
-        """Pictures at some times of one motion, its cloth at the nearest time steps.
+    def at(times: Sequence[float], step: float, every: int = 1) -> "Schedule":
+        """Pictures at some times of one motion, its cloth at the nearest moments.
 
         times: when the pictures are [s].
-        step: the longest time step [s].
+        step: the time step [s].
+        every: time steps from one moment to the next, which one call of a kernel makes.
         """
-        return Schedule(step, 1, tuple(round(time / step) for time in times), tuple(times))
+        moments = tuple(round(time / (every * step)) for time in times)
+        return Schedule(step, every, moments, tuple(times))
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,7 @@
 """A check of garments for their authors."""
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -36,8 +37,9 @@ def check_garment(garment: Garment, seconds: float = SECONDS) -> None:
     packs, settings = open_packs(()), garment.settings()
     times = [frame / FPS for frame in range(round(seconds * FPS) + 1)]
     dressed = Dressed(garment, packs, settings)
-    sheets = dressed.record(Schedule.at(times, dressed.step))
-    again = Dressed(garment, packs, settings).record(Schedule.at(times[:3], dressed.step))
+    at = partial(Schedule.at, step=dressed.step, every=round(1 / (FPS * dressed.step)))
+    sheets = dressed.record(at(times))
+    again = Dressed(garment, packs, settings).record(at(times[:3]))
     name = f"garment {garment.name}"
     for sewn, sheet, other in zip(dressed.cloths, sheets, again, strict=True):
         pieces = ", ".join(piece.name for piece in sewn.pieces)

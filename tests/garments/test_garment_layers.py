@@ -140,7 +140,7 @@ def test_a_poncho_is_not_torn_by_a_head_that_tilts_back() -> None:
     """Its neck is held by the body, and would be inside of the head."""
     player = dressed_player(make_wearer(motion="glide"), wear=("poncho",))
     dressed = Dressed(player, open_packs(()), player.settings())
-    (sheets,) = dressed.record(Schedule.at([0.5, 1.0], dressed.step))
+    (sheets,) = dressed.record(Schedule.at([0.5, 1.0], dressed.step, round(0.5 / dressed.step)))
     (sewn,) = dressed.cloths
     assert max(max_stretch(sheet, sewn.cloth) for sheet in sheets) < 0.16
 
@@ -149,7 +149,8 @@ def test_the_hem_of_a_skirt_on_a_runner_lies_in_folds_and_swings() -> None:
     """A bell without folds is as long around as the line around all of its points."""
     player = dressed_player(make_wearer(motion="run"), wear=("skirt",))
     dressed = Dressed(player, open_packs(()), player.settings())
-    (sheets,) = dressed.record(Schedule.at([1.0, 1.125, 1.25, 1.375], dressed.step))
+    at = Schedule.at([1.0, 1.125, 1.25, 1.375], dressed.step, every=round(0.125 / dressed.step))
+    (sheets,) = dressed.record(at)
     (sewn,) = dressed.cloths
     low = sewn.start[:, 1] < sewn.start[:, 1].min() + 1e-6
     hems = sheets[:, low][..., [0, 2]]

@@ -239,7 +239,8 @@ def test_wings_bend_and_do_not_fold(motion: str, speed: float) -> None:
     player = dressed_player(make_wearer(motion=motion, speed=speed), elytra=True)
     dressed = Dressed(player, open_packs(()), player.settings())
     columns, rows = find_garment("elytra").piece[0].points  # type: ignore[union-attr]
-    for sheet in dressed.record(Schedule.at([0.5, 0.9, 1.2, 1.6], dressed.step)):
+    at = Schedule.at([0.5, 0.9, 1.2, 1.6], dressed.step, every=round(0.1 / dressed.step))
+    for sheet in dressed.record(at):
         down = np.diff(sheet.reshape(4, rows, columns, 3), axis=1)
         along = down / np.linalg.norm(down, axis=-1, keepdims=True)
         cosines = np.einsum("trci,tsci->trsc", along, along)

@@ -41,7 +41,9 @@ def recorded(dressed: Dressed, times: list[float]) -> tuple[np.ndarray, np.ndarr
     columns, rows = find_garment("elytra").piece[0].points  # type: ignore[union-attr]
     left, right = (
         sheet.reshape(-1, rows, columns, 3)
-        for sheet in dressed.record(Schedule.at(times, dressed.step))
+        for sheet in dressed.record(
+            Schedule.at(times, dressed.step, every=round(STEP / dressed.step))
+        )
     )
     assert dressed.wearer is not None
     head = PARTS["head"].centre + CORNERS * PARTS["head"].extent / 2
