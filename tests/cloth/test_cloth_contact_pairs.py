@@ -4,7 +4,6 @@ from dataclasses import replace
 from itertools import combinations, pairwise
 from typing import Any
 
-import numba
 import numpy as np
 import pytest
 import trimesh
@@ -32,23 +31,27 @@ from drapery.cloth.contact.touching_pairs import (
     find_pairs,
     particle_bounds,
 )
+from drapery.jit import entry_point
 from drapery.mesh import Array
 
 LIMIT = 0.03
 """How near the pairs are that are looked for [m]."""
 
 
-@numba.njit
-def searched(x0: Any, x: Any, contact: Any, stop: Any, every: Any) -> Any:
-    """The pairs that the tree finds, then those among all pairs of which the bounds overlap, each
-    with its kind, then the distances of all pairs at the start and the end [m].
+@entry_point
+def search(
+    x0: Any, x: Any, contact: Any, stop: Any, every: Any, found: Any, counts: Any, distances: Any
+) -> None:
+    """Find the pairs by the tree, and those among all pairs of which the bounds overlap.
 
     every: all pairs and their kinds, [P, 5].
+    found: takes the pairs of either way with their kinds, [2, P, 5]. counts: their numbers, [2].
+    distances: takes those of all pairs at the start and the end [m], [P, 2].
     """
     none = Windows(np.empty((4, 0)), np.zeros(0, np.uint8))
     by_tree = find_pairs(x0, x, contact, none, LIMIT, stop)
     bounds = particle_bounds(x0, x, 0.5 * LIMIT, stop)
-    listed, waiting, distances = np.empty_like(every), 0, np.empty((len(every), 2))
+    listed, waiting = np.empty_like(every), 0
     for n in range(len(every)):
         i, j, k, m, kind = every[n]
         apart = False
@@ -68,8 +71,13 @@ def searched(x0: Any, x: Any, contact: Any, stop: Any, every: Any) -> Any:
             _weights, offset = nearest(places, i, j, k, m, kind)
             distances[n, end] = np.sqrt(offset[0] ** 2 + offset[1] ** 2 + offset[2] ** 2)
     by_all = empty_pairs(waiting)
-    count = add_pairs(x0, x, LIMIT, stop, listed, waiting, by_all, 0)
-    return by_tree, by_all.ends[:count], by_all.edges[:count], distances
+    counts[0] = len(by_tree.ends)
+    counts[1] = add_pairs(x0, x, LIMIT, stop, listed, waiting, by_all, 0)
+    for way, pairs in enumerate((by_tree, by_all)):
+        for n in range(counts[way]):
+            for end in range(4):
+                found[way, n, end] = pairs.ends[n, end]
+            found[way, n, 4] = pairs.edges[n]
 
 
 def all_pairs(contact: Any) -> Any:
@@ -81,23 +89,29 @@ def all_pairs(contact: Any) -> Any:
     return np.array(apart, np.int32).reshape(-1, 5)
 
 
-@numba.njit
-def windows(x: Any, contact: Any) -> Any:
-    """Whether each window is smooth."""
+@entry_point
+def find_smooth(x: Any, contact: Any, smooth: Any) -> None:
+    """Whether each window is smooth, [W]."""
     made, levels = windows_of(x, contact), contact.levels
-    smooth = np.zeros(len(made.known), np.bool_)
     for level in range(len(levels)):
         for i in range(levels[level, 1]):
             for j in range(levels[level, 2]):
                 block = levels[level, 0] + i * levels[level, 2] + j
                 smooth[block] = is_smooth(made, levels, level, i, j)
+
+
+def windows(x: Any, contact: Any) -> Any:
+    """Whether each window is smooth."""
+    levels = contact.levels
+    smooth = np.zeros(levels[-1, 0] + levels[-1, 1] * levels[-1, 2], np.bool_)
+    find_smooth(x, contact, smooth)
     return smooth
 
 
-def known(ends: Any, kinds: Any) -> set[tuple[int, ...]]:
+def known(rows: Any) -> set[tuple[int, ...]]:
     """Pairs, whichever of two edges comes first."""
     found = set()
-    for (i, j, k, m), kind in zip(ends.tolist(), kinds.tolist(), strict=True):
+    for i, j, k, m, kind in rows.tolist():
         first, second = (tuple(sorted(pair)) for pair in ((i, j), (k, m)))
         pair = (*min(first, second), *max(first, second)) if kind else (i, *sorted((j, k, m)))
         assert (kind, *pair) not in found
@@ -139,11 +153,13 @@ def test_the_tree_finds_the_pairs_that_a_search_among_all_pairs_finds(
     cloth, x0, x = adversarial()[name]
     contact = make_self_contact(cloth, 0.02)
     every = all_pairs(contact)
-    by_tree, ends, kinds, distances = searched(x0, x, contact, stop, every)
-    found = known(by_tree.ends, by_tree.edges)
-    assert found == known(ends, kinds)
+    pairs, counts = np.zeros((2, *every.shape), np.int32), np.zeros(2, int)
+    distances = np.empty((len(every), 2))
+    search(x0, x, contact, stop, every, pairs, counts, distances)
+    found = known(pairs[0, : counts[0]])
+    assert found == known(pairs[1, : counts[1]])
     near = every[(distances < LIMIT * (1 - 1e-6)).any(axis=1)]
-    assert known(near[:, :4], near[:, 4]) <= found
+    assert known(near) <= found
     if name != "huge":  # squares of lengths are infinite there, so all pairs may be near
         assert bool(found) == (name not in ("flat", "triangle"))
 
