@@ -1,8 +1,8 @@
 """How `pytest` spreads the whole suite over processes; `conftest.py` has these hooks.
 
 A run of single files, or of tests chosen by name, needs no other process; `-m quick` takes two, and
-`-n` says another number. Tests of pages run apart, with `-m page`: their kernels and browsers take
-a third of the time.
+`-n` says another number. Tests of pages run apart, with `-m page`, and so do slow ones, with
+`-m slow`: browsers, kernels as WebAssembly and one test in two hundred take half of the time.
 """
 
 import os
@@ -13,6 +13,8 @@ from compile_kernels import compile_all
 
 FOR_PAGES = {"chromium", "firefox", "playable"}
 """The fixtures of browsers and of WebAssembly; a test that takes one is marked `page`."""
+APART = ("page", "slow")
+"""The marks of tests that a run of the whole suite leaves out."""
 PAGES = "test_studio_page"
 """The studio's tests in a browser wait for it and for a server, with deadlines: one worker runs
 them all, one after another."""
@@ -91,7 +93,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
 def pytest_report_header(config: pytest.Config) -> list[str] | None:
     if not is_whole(config):
         return None
-    lines = ["without the tests of pages, which `pytest -m page` runs"]
+    lines = [f"without the tests that `pytest -m {name}` runs" for name in APART]
     if not config.pluginmanager.hasplugin("xdist"):
         lines.append('one by one, without pytest-xdist; `pip install -e ".[dev]"` installs it')
     return lines
@@ -108,13 +110,14 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 @pytest.hookimpl(tryfirst=True)  # before `-m` chooses
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark tests of pages, and leave them out of a whole run; the longest files first."""
-    pages = [item for item in items if FOR_PAGES.intersection(getattr(item, "fixturenames", ()))]
-    for item in pages:
-        item.add_marker("page")
-    if is_whole(config) and pages:
-        config.hook.pytest_deselected(items=pages)
-        left_out = set(pages)
+    """Mark tests of pages, leave what runs apart out of a whole run, and begin with long files."""
+    for item in items:
+        if FOR_PAGES.intersection(getattr(item, "fixturenames", ())):
+            item.add_marker("page")
+    if is_whole(config):
+        apart = [item for item in items if any(map(item.get_closest_marker, APART))]
+        config.hook.pytest_deselected(items=apart)
+        left_out = set(apart)
         items[:] = [item for item in items if item not in left_out]
 
     def place(item: pytest.Item) -> int:
