@@ -15,7 +15,7 @@ from public_api import PACKAGES
 from source_modules import FOLDERS, ROOT, modules
 
 FOUNDATION = {
-    *("errors", "elementary", "mesh", "option", "options", "settings", "yaml_text", "jit"),
+    *("errors", "elementary", "mesh", "option", "option_checks", "settings", "yaml_text", "jit"),
     *("arrays", "lazy", "toml_text", "player_settings", "version"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
     *("json_text", "model_faults", "file_formats", "output_files"),
@@ -37,7 +37,7 @@ ALLOWED: dict[str, set[str]] = {
     "mesh": {"arrays", "errors"},
     "option": {"errors"},
     "settings": {"errors", "option"},
-    "options": {"errors", "option", "settings"},
+    "option_checks": {"errors", "option", "settings"},
     "player_settings": {"option"},
     "yaml_text": {"errors"},
     "user_files": {"errors"},
@@ -204,7 +204,7 @@ def _outward(name: str) -> Iterator[str]:
             yield f"{name} -> {target}: outwards"
         elif ring_of(other) == ring_of(package) and other not in ALLOWED[package]:
             yield f"{name} -> {target}: not in the contract"
-        if package in KNOWS_NO_SETTINGS and other in ("settings", "options", "option"):
+        if package in KNOWS_NO_SETTINGS and other in ("settings", "option_checks", "option"):
             yield f"{name} -> {target}: has no settings"
 
 

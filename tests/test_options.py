@@ -15,7 +15,7 @@ from drapery.cloth import Drag, Fabric, Gravity, SolverXPBD, Wind
 from drapery.commands.app import command_line
 from drapery.errors import OptionError, shown
 from drapery.option import Option, Output, limits, one_of, whole, within
-from drapery.options import check_options
+from drapery.option_checks import check_options
 from drapery.render.views import VIEWS, View
 from drapery.settings import (
     LOOP_OPTIONS,

@@ -11,7 +11,7 @@ from option_values import OTHERS, SAME_LOOK
 from drapery import Banner, Settings, animate, draw, iter_frames, save_model
 from drapery.errors import OptionError
 from drapery.option import Subject
-from drapery.options import check_options
+from drapery.option_checks import check_options
 from drapery.serve.request_params import ServiceConfig, read_request
 from drapery.settings import NAMED_OPTIONS
 from drapery.studio.snippets import ExportRequest, as_command, as_python

@@ -14,7 +14,7 @@ from drapery.batch.rows import ManifestFault, ManifestRow, Rows, read_rows
 from drapery.errors import BackendError, DesignError, OptionError, PackError, shown
 from drapery.file_formats import FileFormat, formats_of, known_format
 from drapery.option import Option, Output, Subject
-from drapery.options import check_options, one_line, unknown_names
+from drapery.option_checks import check_options, one_line, unknown_names
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings, settled_for
 from drapery.user_files import reason

@@ -34,7 +34,7 @@ from drapery.garments.loading import load_tables
 from drapery.garments.profiles import is_profile_file
 from drapery.mesh_file import MESH_ENDINGS
 from drapery.option import Subject
-from drapery.options import unknown_names
+from drapery.option_checks import unknown_names
 from drapery.player_settings import MAX_SPEED
 from drapery.settings import NAMED_OPTIONS, OPTIONS, Settings, applicable, settled
 from drapery.style.equipment import SOLIDS, parse_armor, parse_trim

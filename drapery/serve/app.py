@@ -27,7 +27,7 @@ from drapery.batch.pool import JobLimits, ProcessPool
 from drapery.batch.stores import LocalStore
 from drapery.errors import DraperyError, OptionError
 from drapery.file_formats import FileFormat, Kind, formats_of
-from drapery.options import one_line
+from drapery.option_checks import one_line
 from drapery.serve.job_queue import BusyError, JobQueue, Unavailable
 from drapery.serve.picture_cache import PictureCache
 from drapery.serve.rates import RateLimiter

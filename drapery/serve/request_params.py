@@ -11,7 +11,7 @@ from drapery.batch.manifest import PictureRequest
 from drapery.errors import DraperyError, OptionError, shown
 from drapery.file_formats import FileFormat, format_of
 from drapery.option import Option, Output, Subject, within
-from drapery.options import check_options, one_line, unknown
+from drapery.option_checks import check_options, one_line, unknown
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
 from drapery.settings import LOOP_OPTIONS, OPTIONS, TEXTURED, Settings, settled, settled_for
 from drapery.styles import combined_style

@@ -20,7 +20,7 @@ from drapery.banner import (
     write_banner,
 )
 from drapery.errors import OptionError, shown
-from drapery.options import parse_options
+from drapery.option_checks import parse_options
 from drapery.settings import NAMED_OPTIONS, applicable
 from drapery.studio.sketch import MAX_TITLE, Sketch, banner_of, sketch_of
 from drapery.styles import style_names

@@ -27,7 +27,7 @@ from drapery import Banner
 from drapery.comparison import EXACT, LIMIT_OPTIONS, Tolerance, read_tolerance
 from drapery.errors import OptionError, shown
 from drapery.model_faults import said_of, wanted
-from drapery.options import NAMES, check_options, one_line, unknown_names
+from drapery.option_checks import NAMES, check_options, one_line, unknown_names
 from drapery.settings import LOOP_OPTIONS, Settings, settled_for
 from drapery.toml_text import parse_toml
 from drapery.user_files import read_user_file

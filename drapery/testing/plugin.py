@@ -378,7 +378,7 @@ def _tolerance(config: pytest.Config, limits: dict[str, Any], hashed: bool) -> "
     from drapery.errors import OptionError
 
     if not limits.keys() <= LIMIT_OPTIONS.keys():
-        from drapery.options import unknown_names
+        from drapery.option_checks import unknown_names
 
         for fault in unknown_names(limits, frozenset(LIMIT_OPTIONS)):
             raise OptionError(fault)
