@@ -28,6 +28,7 @@ def test_what_tore_is_whole(options):
     check(Storm({}, options), 0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("storm", THICK_CAPES, ids=lambda storm: storm.text)
 def test_a_thick_cape_that_its_wearer_stretches_is_finite_and_told(storm):
     with pytest.warns(UserWarning, match="pins or colliders pull cloth 0 apart"):
