@@ -16,6 +16,7 @@ from drapery.cloth.colliders.shapes import Box, Plane, Shape
 from drapery.cloth.contact.box_data import NOTHING, BoxColliders, box_colliders
 from drapery.cloth.contact.lanes_contact import resolve_block
 from drapery.cloth.contact.self_contact_data import SelfContact, make_self_contact
+from drapery.cloth.contact.velocities import set_velocities, speeds_of
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.solvers.driver import check_limit
 from drapery.cloth.state import State
@@ -195,16 +196,13 @@ class ContactStage:
                 long.append(first)
 
         run_blocks(work, len(x), 1, thread_count(self.threads))
-        velocities = np.array(after.velocities, float)
-        seen = (x - start) / dt
-        limit, length = (np.sqrt((v * v).sum(axis=-1)) for v in (velocities, seen))
-        limit = np.maximum(limit, carried / dt)
-        # Particles of a cloth with contact have the velocity of their motion over the step, at most
-        # as fast as before or as the boxes that moved them: what a solver does to the neighbours of
-        # stopped ones is not motion.
-        part = np.minimum(1.0, limit / np.maximum(length, 1e-300))[..., None]
-        changed = (x != wanted).any(axis=(1, 2), keepdims=True)
-        moving = np.where(changed, part * seen, velocities)
+        velocities = np.array(after.velocities, float, order="C")
+        # All particles of a cloth with contact have the velocity of their motion: what a solver
+        # does to the neighbours of stopped ones is not motion.
+        changed = (x != wanted).any(axis=(1, 2))
+        moved = np.repeat(changed[:, None], x.shape[1], axis=1)
+        most = np.maximum(speeds_of(velocities), carried / dt)
+        set_velocities(velocities, (x - start) / dt, moved, most)
         dtype = after.positions.dtype
         strain = max(before.strain, strain_of(x, self.limit) if long else 0.0)
-        return State(x.astype(dtype), moving.astype(dtype), after.time, strain)
+        return State(x.astype(dtype), velocities.astype(dtype), after.time, strain)

@@ -31,10 +31,11 @@ from drapery.cloth.colliders.fields import Field
 from drapery.cloth.colliders.pose import Pose
 from drapery.cloth.colliders.sampling import SamplePoints
 from drapery.cloth.colliders.sweep import BOUNCED, MISSED, ContactParams, RigidSweep, sweep_point
-from drapery.cloth.colliders.vectors import Vector, add_scaled, norm, row, scale, subtract
+from drapery.cloth.colliders.vectors import Vector, add_scaled, norm, row, subtract
 from drapery.cloth.contact.box_data import NO_CONTACT
 from drapery.cloth.contact.lanes_contact import resolve_block
 from drapery.cloth.contact.self_contact_data import SelfContact
+from drapery.cloth.contact.velocities import set_velocities, speeds_of
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
 from drapery.cloth.strain import NEVER, StrainLimit, limit_strain, strain_of
@@ -125,7 +126,10 @@ class CollisionWorld:
                 here.x[:], here.v[:], here.bounced[:] = solved[cloth], speeds[cloth], False
                 self._resolve_in_parts(here, parts, dt / PARTS)
             block = slice(first, last)
-            update_velocities(first, last, motion, solved[block], speeds[block], dt)
+            # A bounce has set a velocity of its own; the speed of an impact is allowed to all.
+            moved = (x[block] != solved[block]).any(axis=2) & ~motion.bounced[block]
+            most = np.maximum(speeds_of(speeds[block]), speeds_of(v[block]))
+            set_velocities(v[block], (x[block] - start[block]) * (1 / dt), moved, most)
 
         run_blocks(finish, len(start), 1, threads)
         dtype, strain = after.positions.dtype, max(before.strain, strain_of(x, self.limit))
@@ -319,35 +323,6 @@ def shorten_one(x: Array, attachments: Attachments) -> bool:
                 x[i, axis] += attachments.share_i[s] * part * offset[axis]
                 x[j, axis] -= attachments.share_j[s] * part * offset[axis]
     return found
-
-
-@entry_point
-def update_velocities(
-    first: int, last: int, motion: ClothMotion, solved: Array, speeds: Array, dt: float
-) -> None:
-    """Give particles that were moved here, and did not bounce, the velocity of their motion over
-    the step. Otherwise a cloth that its solver pulls into a surface at every step would keep the
-    speed of that pull. The new speed is at most the speed before the collision response, or the
-    speed of an impact.
-
-    solved, speeds: positions [m] and velocities [m/s] before colliders, of cloths first..last.
-    """
-    for cloth in range(first, last):
-        x, v, start = motion.x[cloth], motion.v[cloth], motion.start[cloth]
-        for i in range(len(x)):
-            if motion.bounced[cloth, i] or same(x, solved[cloth - first], i):
-                continue
-            seen = scale(1 / dt, subtract(row(x, i), row(start, i)))
-            maximum = max(norm(row(speeds[cloth - first], i)), norm(row(v, i)))
-            length = norm(seen)
-            part = maximum / length if length > maximum else 1.0
-            for axis in range(3):
-                v[i, axis] = part * seen[axis]
-
-
-@kernel
-def same(x: Array, y: Array, i: int) -> bool:
-    return bool(x[i, 0] == y[i, 0] and x[i, 1] == y[i, 1] and x[i, 2] == y[i, 2])
 
 
 @kernel

@@ -20,7 +20,8 @@ Order of a step
    (`meet_one`), then the limit on strain with contact again after it (`strain`).
 4. A step that contact has torn (`is_torn`) is made again from its start, with contact after each of
    its substeps. Otherwise moved particles get the velocity of their motion over the step, no faster
-   than before or than the box that moved them (`limited_speed`).
+   than before or than the box that moved them (`moved_velocity`, which the contact that is
+   resolved after a step uses too).
 
 Algorithm
 ---------

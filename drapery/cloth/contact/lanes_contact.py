@@ -28,6 +28,7 @@ from drapery.cloth.contact.geometry import grown, put
 from drapery.cloth.contact.near_boxes import swept_extent
 from drapery.cloth.contact.self_contact import meet_one
 from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
+from drapery.cloth.contact.velocities import moved_velocity
 from drapery.cloth.kernels import load_lanes
 from drapery.cloth.sheet_kernels import lane_of
 from drapery.cloth.simd import fill, lane_count, load, maximum, minimum, store
@@ -357,7 +358,7 @@ def take_lane(y: Any, u: Any, batch: Any, cloth: Any, dt: Any, met: Any) -> None
     for i in range(work.end.shape[0] if met else 0):
         if row(work.end, i) != row(work.solved, i):
             solved = u[3 * i, cloth], u[3 * i + 1, cloth], u[3 * i + 2, cloth]
-            speed = limited_speed(work, i, solved, dt)
+            speed = velocity_after(work, i, solved, dt)
             for axis in range(3):
                 y[3 * i + axis, cloth] = work.end[i, axis]
                 u[3 * i + axis, cloth] = speed[axis]
@@ -427,7 +428,7 @@ def meet_plane(
         for i in range(work.end.shape[0] if met else 0):
             lane = lane_of(i, sheet)
             if row(work.end, i) != row(work.solved, i):
-                speed = limited_speed(work, i, (u[0, lane], u[1, lane], u[2, lane]), dt)
+                speed = velocity_after(work, i, (u[0, lane], u[1, lane], u[2, lane]), dt)
                 for axis in range(3):
                     y[axis, lane] = work.end[i, axis]
                     u[axis, lane] = speed[axis]
@@ -575,12 +576,10 @@ def near_plane(x0: Any, x: Any, extents: Any, sheet: Any) -> bool:
 
 
 @kernel
-def limited_speed(work: Any, i: Any, speed: Any, dt: Any) -> Vector:
-    """The velocity of a particle that contact moved: of its motion over the step, at most as fast
-    as its solver left it, at `speed`, or as the boxes that moved it. Otherwise a cloth that its
-    solver pulls into a surface at every step would keep the speed of that pull."""
+def velocity_after(work: Any, i: Any, solved: Any, dt: Any) -> Vector:
+    """The velocity of a particle that contact moved in dt [s]: at most as fast as its solver left
+    it, with the velocity `solved`, or as the boxes that moved it."""
     seen = scale(1.0 / np.float64(dt), subtract(row(work.end, i), row(work.start, i)))
-    own = norm((np.float64(speed[0]), np.float64(speed[1]), np.float64(speed[2])))
+    own = norm((np.float64(solved[0]), np.float64(solved[1]), np.float64(solved[2])))
     carried = work.near.tracks[i, CARRIED] if i < len(work.near.tracks) else 0.0
-    limit, length = max(own, carried / dt), norm(seen)
-    return scale(limit / length if length > limit else 1.0, seen)
+    return moved_velocity(seen, max(own, carried / dt))
