@@ -79,7 +79,11 @@ if TYPE_CHECKING:
     from drapery.cloth.solvers.registry import SOLVERS as SOLVERS, solver as solver
     from drapery.cloth.solvers.verlet import SolverVerlet as SolverVerlet
     from drapery.cloth.solvers.xpbd import SolverXPBD as SolverXPBD
-    from drapery.cloth.state import State as State, rest_state as rest_state
+    from drapery.cloth.state import (
+        State as State,
+        WorstStrain as WorstStrain,
+        rest_state as rest_state,
+    )
     from drapery.cloth.stepping import MovingCloth as MovingCloth, simulate as simulate
     from drapery.cloth.wind import Wind as Wind
     from drapery.cloth.world import Detail as Detail, World as World, WorldView as WorldView

@@ -20,7 +20,7 @@ from drapery.cloth.contact.velocities import set_velocities, speeds_of
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.solvers.driver import check_limit
 from drapery.cloth.state import State
-from drapery.cloth.strain import NEVER, StrainLimit, strain_of
+from drapery.cloth.strain import NEVER, StrainLimit, worse, worst_now
 from drapery.errors import OptionError
 from drapery.mesh import Array
 
@@ -204,5 +204,5 @@ class ContactStage:
         most = np.maximum(speeds_of(velocities), carried / dt)
         set_velocities(velocities, (x - start) / dt, moved, most)
         dtype = after.positions.dtype
-        strain = max(before.strain, strain_of(x, self.limit) if long else 0.0)
-        return State(x.astype(dtype), velocities.astype(dtype), after.time, strain)
+        worst = worse(before.worst, worst_now(x, self.limit, after.time) if long else None)
+        return State(x.astype(dtype), velocities.astype(dtype), after.time, worst)

@@ -13,6 +13,24 @@ from drapery.errors import OptionError, shown
 MAX_CLOTHS = 100_000_000
 
 
+@dataclass(frozen=True)
+class WorstStrain:
+    """The moment at which a structural spring was longest over its limit.
+
+    over: by how much, as a part of the limit.
+    time: the end of the step [s].
+    cloth: the number of the cloth.
+    particles: the ends of the spring.
+    place: of its middle then [m].
+    """
+
+    over: float
+    time: float
+    cloth: int
+    particles: tuple[int, int]
+    place: tuple[float, float, float]
+
+
 @dataclass(frozen=True, eq=False)
 class State:
     """Positions and velocities of B cloths at one time.
@@ -20,14 +38,19 @@ class State:
     positions: [m], shape [B, N, 3].
     velocities: [m/s], shape [B, N, 3].
     time: [s].
-    strain: how far the longest structural spring was over its limit, as a part of that limit, in
-        all steps that led here; 0 where all springs were held. See `drapery.cloth.strain`.
+    worst: the structural spring that was longest over its limit in all steps that led here, and
+        when; None where all springs were held.
     """
 
     positions: Vectors
     velocities: Vectors
     time: float = 0.0
-    strain: float = 0.0
+    worst: WorstStrain | None = None
+
+    @property
+    def strain(self) -> float:
+        """How far a spring was over its limit, as a part of that limit; 0 where all were held."""
+        return 0.0 if self.worst is None else self.worst.over
 
 
 def rest_state(cloth: Cloth, count: int = 1, dtype: DTypeLike = np.float32) -> State:

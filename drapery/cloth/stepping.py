@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Self
 
-import numpy as np
-
-from drapery.cloth.cloth import STRUCTURAL, Cloth
+from drapery.cloth.cloth import Cloth
 from drapery.cloth.forces import Force, Gravity, lower_forces
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import Solver, check_moved, check_state, check_step
 from drapery.cloth.solvers.driver import KernelSolver
 from drapery.cloth.solvers.registry import solver as make_solver
 from drapery.cloth.state import State, rest_state
-from drapery.cloth.strain import NEVER
+from drapery.cloth.strain import NEVER, TOLD, warn_of_strain
 from drapery.errors import OptionError, shown
 
 if TYPE_CHECKING:
     from drapery.cloth.collisions import Collisions
     from drapery.cloth.contact.box_data import BoxColliders
-
-
-TOLD = 0.02
-"""A strain over its limit by more than this part is warned of: it can be seen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +76,8 @@ class MovingCloth:
     def advance(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
         """The cloths some time steps later.
 
-        Warns where pins or colliders pull cloth apart for the first time.
+        Warns where pins or colliders pull cloth apart for the first time, of the worst moment in
+        these steps; `State.worst` is the worst of the whole motion.
 
         forces: what acts on the cloths in these steps.
         steps: number of time steps.
@@ -91,12 +85,15 @@ class MovingCloth:
 
         Raises OptionError where the cloths are torn to infinity.
         """
-        return self.unmet(forces, steps, pins).after(self.state)
+        moved = self.unmet(forces, steps, pins)
+        if self.state.strain <= TOLD:
+            warn_of_strain(moved.state.worst)
+        return moved
 
     def unmet(self, forces: Sequence[Force], steps: int = 1, pins: PinPath | None = None) -> Self:
         """The cloths some time steps later, before they meet cloths of other topologies.
 
-        The caller resolves that contact.
+        The caller resolves that contact, and warns of their strain.
 
         forces: what acts on the cloths in these steps.
         steps: number of time steps.
@@ -119,11 +116,6 @@ class MovingCloth:
             state = state if self.resolve is None else self.resolve(before, state)
         return replace(self, state=state, solver_state=solver_state)
 
-    def after(self, before: State) -> Self:
-        """These cloths, with a warning if their strain was not held since a state."""
-        warn_of_strain(self.cloth, before, self.state)
-        return self
-
 
 def _contact_of(
     cloth: Cloth, solver: Solver, solver_state: Any, collisions: Collisions | None
@@ -142,27 +134,6 @@ def _contact_of(
         return None, boxes
     limit = solver_state.limit if isinstance(solver, KernelSolver) else NEVER
     return resolver(cloth, collisions, limit), None
-
-
-def warn_of_strain(cloth: Cloth, before: State, after: State) -> None:
-    """Warn of cloth whose strain is over its limit by more than `TOLD` for the first time since its
-    motion began. before, after: its states at the start and the end of some steps."""
-    if before.strain > TOLD or after.strain <= TOLD:
-        return
-    springs = np.flatnonzero(cloth.spring_kind == STRUCTURAL)
-    ends = np.asarray(after.positions, float)[:, cloth.spring_pairs[springs]]
-    offsets = ends[:, :, 1] - ends[:, :, 0]
-    ratios = np.sqrt((offsets * offsets).sum(axis=-1)) / cloth.spring_length[springs]
-    number, longest = np.unravel_index(ratios.argmax(), ratios.shape)
-    i, j = cloth.spring_pairs[springs[longest]]
-    place = ", ".join(f"{each:.3g}" for each in ends[number, longest].mean(axis=0))
-    warnings.warn(
-        f"pins or colliders pull cloth {number} apart: until {after.time:.4g} s an edge was up to "
-        f"{100 * after.strain:.3g} % longer than its limit, and the longest is now between "
-        f"particles {i} and {j} at ({place}) m; move pins and colliders less far, pin fewer "
-        "particles, or make the cloth thinner",
-        stacklevel=4,
-    )
 
 
 def simulate(

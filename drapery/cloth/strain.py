@@ -14,11 +14,13 @@ springs are within the limit keeps its bits. In another one
    by the same part of their way in the step, at whose start no spring was too long. Lengths are
    convex in the places of particles, so each spring is held on the whole way there.
 
-The second cannot help where pins or colliders move the cloth apart; then `State.strain` and a
-warning say how far.
+The second cannot help where pins or colliders move the cloth apart; then `State.worst` and a
+warning say how far, where and when.
 """
 
 import math
+import warnings
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,6 +32,7 @@ from drapery.cloth.contact.geometry import put
 from drapery.cloth.order import across_then_outwards, pin_distances
 from drapery.cloth.sheets import SheetLayout
 from drapery.cloth.simd import fill, lane_count, load, maximum, store
+from drapery.cloth.state import WorstStrain
 from drapery.jit import call_by_address, entry_point, kernel
 from drapery.mesh import Array
 
@@ -45,6 +48,11 @@ SWEEPS = 24
 """The most sweeps over the springs before contact is resolved again."""
 SHARED_SWEEPS = 12
 """Sweeps in which ends share corrections, before far ends follow near ones in each second one."""
+TOLD = 0.02
+"""A strain over its limit by more than this part is warned of: it can be seen."""
+NOTES = 6
+"""What is noted of the worst moment of each cloth: the length of a spring over its longest one, the
+number of the step, the number of the spring, and the place of its middle (3)."""
 LEEWAY = 0.01
 """A spring that is over its limit at the start of a step by at most this part gets no longer."""
 
@@ -168,13 +176,20 @@ def is_long(x: Array, limit: StrainLimit) -> bool:
 
 
 @kernel
-def longest_ratio(x: Array, limit: StrainLimit) -> float:
-    """The greatest length of a spring of a cloth [N, 3] over its longest one; 0 without a limit."""
-    most = 0.0
+def note_longest(noted: Array, x: Array, limit: StrainLimit, step: int) -> None:
+    """Note the spring of a cloth [N, 3] that is longest over its limit, if it is longer than the
+    one of an earlier step. noted: see NOTES, [6]."""
+    most, longest = noted[0] * noted[0], -1
     for s in range(limit.squares.size):
         offset = subtract(row(x, limit.pairs[s, 1]), row(x, limit.pairs[s, 0]))
-        most = max(most, dot(offset, offset) / limit.squares[s])
-    return float(np.sqrt(most))
+        square = dot(offset, offset) / limit.squares[s]
+        if square > most:
+            most, longest = square, s
+    if longest >= 0:
+        i, j = limit.pairs[longest, 0], limit.pairs[longest, 1]
+        noted[0], noted[1], noted[2] = np.sqrt(most), step, longest
+        for axis in range(3):
+            noted[3 + axis] = 0.5 * (x[i, axis] + x[j, axis])
 
 
 @kernel
@@ -243,13 +258,53 @@ def go_back(x0: Array, x: Array, limit: StrainLimit) -> bool:
     return norm(shift) > 0.0
 
 
-def strain_of(x: Array, limit: StrainLimit) -> float:
-    """How far the longest spring of cloths [B, N, 3] is over its limit, as a part of that limit; 0
-    where all springs are held."""
+def worst_now(x: Array, limit: StrainLimit, time: float) -> WorstStrain | None:
+    """The spring of cloths [B, N, 3] that is longest over its limit at a time [s]; None where all
+    springs are held."""
     offsets = x[:, limit.pairs[:, 1]] - x[:, limit.pairs[:, 0]]
     ratios = np.sqrt((offsets * offsets).sum(axis=-1)) / limit.longest
-    over = float(ratios.max(initial=0.0)) - 1.0
-    return over if over > HELD_TO else 0.0
+    if not float(ratios.max(initial=0.0)) - 1.0 > HELD_TO:
+        return None
+    cloth, spring = (int(each) for each in np.unravel_index(ratios.argmax(), ratios.shape))
+    middle = x[cloth, limit.pairs[spring]].mean(axis=0)
+    return _worst(float(ratios[cloth, spring]), time, cloth, limit.pairs[spring], middle)
+
+
+def worst_noted(noted: Array, limit: StrainLimit, begin: float, dt: float) -> WorstStrain | None:
+    """The spring that was longest over its limit in some steps of dt [s] from a time [s] on; None
+    where all springs were held. noted: see NOTES, [6, B]."""
+    cloth = int(noted[0].argmax())
+    ratio, step, spring, *place = noted[:, cloth].tolist()
+    if not ratio - 1.0 > HELD_TO:
+        return None
+    return _worst(ratio, begin + (step + 1) * dt, cloth, limit.pairs[int(spring)], place)
+
+
+def _worst(
+    ratio: float, time: float, cloth: int, pair: NDArray[np.int32], middle: Iterable[float]
+) -> WorstStrain:
+    (i, j), (x, y, z) = (int(end) for end in pair), (float(axis) for axis in middle)
+    return WorstStrain(ratio - 1.0, time, cloth, (i, j), (x, y, z))
+
+
+def worse(first: WorstStrain | None, second: WorstStrain | None) -> WorstStrain | None:
+    """The one that is farther over its limit; the first if both are as far."""
+    if first is None or second is None:
+        return second if first is None else first
+    return second if second.over > first.over else first
+
+
+def warn_of_strain(worst: WorstStrain | None) -> None:
+    """Warn of cloth whose strain was over its limit by more than `TOLD`."""
+    if worst is None or worst.over <= TOLD:
+        return
+    (i, j), place = worst.particles, ", ".join(f"{each:.3g}" for each in worst.place)
+    warnings.warn(
+        f"pins or colliders pull cloth {worst.cloth} apart: at {worst.time:.4g} s the edge between "
+        f"particles {i} and {j} at ({place}) m was {100 * worst.over:.3g} % longer than its limit; "
+        "move pins and colliders less far, pin fewer particles, or make the cloth thinner",
+        stacklevel=4,
+    )
 
 
 @entry_point

@@ -18,6 +18,7 @@ from drapery.cloth import (
     Wind,
     rest_state,
 )
+from drapery.cloth.strain import warn_of_strain
 from drapery.mesh import Array
 from drapery.scenes.catalogue import Clip
 
@@ -57,7 +58,9 @@ def motion(
     for frame in range(first, clip.count):
         if frame > first:
             acting = forces((frame - 1) / clip.fps) if callable(forces) else forces
-            moving = moving.advance(acting, steps, pins)
+            moving = moving.unmet(acting, steps, pins)
+        if frame == clip.count - 1:
+            warn_of_strain(moving.state.worst)
         if frame >= 0:
             yield moving.state
 

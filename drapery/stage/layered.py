@@ -14,7 +14,7 @@ from drapery.cloth import Cloth, Collider, Collisions, State, sew
 from drapery.cloth.bending import NO_BENDING
 from drapery.cloth.colliders import TablePath
 from drapery.cloth.collisions import contact_stage
-from drapery.cloth.strain import MOST_STRETCH, strain_limit, strain_of
+from drapery.cloth.strain import MOST_STRETCH, strain_limit, worse, worst_now
 from drapery.garments import SewnCloth
 from drapery.mesh import Array
 
@@ -55,10 +55,9 @@ def joint_contact(
         start, end = _joined(before), _joined(after)
         found = contact.resolve(start, end, _moved(*body.at(np.array([start.time, end.time]))))
         parts = [np.split(part, ends, axis=1) for part in (found.positions, found.velocities)]
-        return [
-            State(places, velocities, found.time, max(old.strain, strain_of(places, limit)))
-            for old, limit, places, velocities in zip(before, limits, *parts, strict=True)
-        ]
+        now = [worst_now(x, limit, end.time) for x, limit in zip(parts[0], limits, strict=True)]
+        worst = [worse(old.worst, each) for old, each in zip(before, now, strict=True)]
+        return [State(x, v, end.time, each) for x, v, each in zip(*parts, worst, strict=True)]
 
     return stage
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from drapery.cloth import Force, MovingCloth, PinPath, State
+from drapery.cloth.strain import warn_of_strain
 from drapery.mesh import Array
 
 SETTLING = 8.0
@@ -125,11 +126,17 @@ def record(
     wanted, places = frozenset(at.moments), {}
     motion = _motion(drapes, at, meeting)
     last = max(wanted)
-    for number, states in enumerate(islice(motion, last + 1)):
-        if on_moment is not None:
-            on_moment(number, last)
-        if number in wanted:
-            places[number] = [state.positions[0] for state in states]
+    states: list[State] = []
+    try:
+        for number, states in enumerate(islice(motion, last + 1)):
+            if on_moment is not None:
+                on_moment(number, last)
+            if number in wanted:
+                places[number] = [state.positions[0] for state in states]
+    finally:
+        # The worst moment is known when the motion ends, also by an error.
+        for state in states:
+            warn_of_strain(state.worst)
     motions = zip(*(places[number] for number in at.moments), strict=True)
     found = [np.stack(motion) for motion in motions]
     return [close_loop(motion, at.fade) for motion in found] if at.fade else found
@@ -150,15 +157,15 @@ def _motion(
     while True:
         yield [each.state for each in moving]
         for number in alone:
-            moving[number] = moving[number].advance(*given(number, at.every))
+            moving[number] = moving[number].unmet(*given(number, at.every))
         if meeting is None:
             continue
         for _ in range(at.every):
             before = [moving[number].state for number in together]
             moved = [moving[number].unmet(*given(number, 1)) for number in together]
             met = meeting.resolve(before, [each.state for each in moved])
-            for number, each, old, state in zip(together, moved, before, met, strict=True):
-                moving[number] = replace(each, state=state).after(old)
+            for number, each, state in zip(together, moved, met, strict=True):
+                moving[number] = replace(each, state=state)
 
 
 def close_loop(motion: Array, before: int) -> Array:

@@ -9,6 +9,7 @@ from scene_helpers import flag_of
 
 from drapery import Settings
 from drapery.cloth import (
+    Box,
     Capsule,
     Collider,
     Collisions,
@@ -33,6 +34,7 @@ from drapery.cloth.strain import (
     limit_strain,
     strain_limit,
 )
+from drapery.stage.recording import Drape, Schedule, record
 
 SMALL = {"grid": (9, 17)}
 STORMS = [
@@ -91,11 +93,60 @@ def test_pins_that_move_apart_are_told():
 
     states = simulate(cloth, SolverDesbrun(), pins=apart, every=12)
     assert next(states).strain == 0.0
-    told = r"apart: until 0.2 s an edge was up to [\d.]+ % longer .* 0 and 1 at \(-0.59"
+    told = r"apart: at 0.2 s the edge between particles 0 and 1 at \(-0.59.* m was [\d.]+ % longer"
     with pytest.warns(UserWarning, match=told):
         strain = next(states).strain
     assert strain > 0.2
     assert next(states).strain > strain  # without a second warning
+
+
+def apart_and_back(cloth):
+    """A path on which pins are farthest from each other at 0.1 s, and at rest again at 0.2 s."""
+    return lambda time: cloth.rest_positions[cloth.inv_mass == 0] * (1 + 6 * min(time, 0.2 - time))
+
+
+FAR = np.array([0.0, -9.0, 0.0])
+MEETINGS = {
+    "nothing": None,
+    "a box": Collisions((Collider(Box(FAR, np.ones(3))),)),
+    "a ball": Collisions((Collider(Sphere(FAR, 1.0)),)),
+    "itself": Collisions(apart=0.01),
+    "a box and itself": Collisions((Collider(Box(FAR, np.ones(3))),), apart=0.01),
+}
+
+
+@pytest.mark.parametrize("columns", [5, 17])
+@pytest.mark.parametrize("meeting", MEETINGS)
+def test_the_worst_moment_is_told_and_not_the_first_or_the_last(meeting, columns):
+    cloth = grid(columns, 5, 1.0, 1.0, pins="corners")
+    begun = MovingCloth.begin(cloth, SolverDesbrun(), collisions=MEETINGS[meeting])
+    path = apart_and_back(cloth)
+    farthest = begun.unmet((Gravity(),), 6, path).state
+    worst = farthest.worst
+    i, j = worst.particles
+    ends = farthest.positions[0, [i, j]].astype(float)
+    assert worst.time == pytest.approx(0.1)
+    assert worst.cloth == 0
+    assert worst.place == pytest.approx(ends.mean(axis=0).tolist(), abs=1e-6)
+    rest = np.linalg.norm(cloth.rest_positions[i] - cloth.rest_positions[j])
+    length = np.linalg.norm(ends[1] - ends[0])
+    assert worst.over == pytest.approx(length / rest / MOST_STRETCH - 1, abs=1e-5)
+    with pytest.warns(UserWarning, match=f"at 0.1 s the edge between particles {i} and {j} "):
+        state = begun.advance((Gravity(),), 12, path).state
+    assert state.worst == worst
+    assert state.strain == worst.over
+
+
+def test_a_recorded_motion_is_told_once_of_its_worst_moment():
+    cloth = grid(5, 5, 1.0, 1.0, pins="corners")
+    drape = Drape(
+        lambda dt: MovingCloth.begin(cloth, SolverDesbrun(), dt),
+        lambda period: (Gravity(),),
+        apart_and_back(cloth),
+    )
+    with pytest.warns(UserWarning, match=r"cloth 0 apart: at 0\.1 s the edge") as told:
+        record([drape], Schedule(1 / 60, 2, range(7), tuple(n / 30 for n in range(7))))
+    assert len(told) == 1
 
 
 def ball_of_triangles():

@@ -38,7 +38,7 @@ from drapery.cloth.contact.self_contact_data import SelfContact
 from drapery.cloth.contact.velocities import set_velocities, speeds_of
 from drapery.cloth.lanes import run_blocks, thread_count
 from drapery.cloth.state import State
-from drapery.cloth.strain import NEVER, StrainLimit, limit_strain, strain_of
+from drapery.cloth.strain import NEVER, StrainLimit, limit_strain, worse, worst_now
 from drapery.errors import OptionError
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
@@ -132,8 +132,9 @@ class CollisionWorld:
             set_velocities(v[block], (x[block] - start[block]) * (1 / dt), moved, most)
 
         run_blocks(finish, len(start), 1, threads)
-        dtype, strain = after.positions.dtype, max(before.strain, strain_of(x, self.limit))
-        return State(x.astype(dtype), v.astype(dtype), after.time, strain)
+        dtype = after.positions.dtype
+        worst = worse(before.worst, worst_now(x, self.limit, after.time))
+        return State(x.astype(dtype), v.astype(dtype), after.time, worst)
 
     def _resolve_block(
         self, first: int, last: int, motion: ClothMotion, sweeps: Sequence[RigidSweep], dt: float

@@ -53,7 +53,7 @@ What is exact, and what is not
   out of solids, not at a distance. Friction holds cloth but for a slow slide, as tension and
   contact take turns. The nearest point of an edge is found to 0.1 mm (`NEAREST`).
 - Not held: cloth between two boxes that move towards each other, or pulled apart by its pins, has
-  no free place. It may enter a box or stretch; `State.strain` and a warning say so.
+  no free place. It may enter a box or stretch; `State.worst` and a warning say so.
 
 Constants
 ---------

@@ -39,7 +39,7 @@ from drapery.cloth.strain import (
     excess_of_lanes,
     go_back,
     is_long,
-    longest_ratio,
+    note_longest,
     plane_is_long,
     shorten_long,
 )
@@ -239,7 +239,7 @@ def meet_lanes(
             excess_of_lanes(long, y, batch.limit.pairs, batch.squares, first)
             for cloth in range(first, min(first + lanes, batch.cloths - start)):
                 if long[0, cloth - first] > 0:
-                    limit_lane(y, u, batch, start, cloth, dt)
+                    limit_lane(y, u, batch, start, cloth, when[0], dt)
         return 0
     place_boxes(batch, when)
     for first in range(0, min(y.shape[1], batch.cloths - start), lanes):
@@ -252,9 +252,9 @@ def meet_lanes(
             near = meets_itself(batch) or gaps[0, at] < 0 or long[0, at] > 0
             if careful:
                 if near and before[4 * rows, cloth] > 0:
-                    meet_lane(y, u, before, batch, start, cloth, dt, 1)
+                    meet_lane(y, u, before, batch, start, cloth, when[0], dt, 1)
             else:
-                held = near and meet_lane(y, u, before, batch, start, cloth, dt, 0)
+                held = near and meet_lane(y, u, before, batch, start, cloth, when[0], dt, 0)
                 before[4 * rows, cloth] = held
                 again = again or held
     if again:
@@ -321,7 +321,15 @@ def contact_due(turn: Any, substeps: Any, again: Any) -> Any:
 
 @kernel
 def meet_lane(
-    y: Any, u: Any, before: Any, batch: Any, start: Any, cloth: Any, dt: Any, careful: Any
+    y: Any,
+    u: Any,
+    before: Any,
+    batch: Any,
+    start: Any,
+    cloth: Any,
+    step: Any,
+    dt: Any,
+    careful: Any,
 ) -> Any:
     """Resolve the contacts of one lane; returns whether its step has to be made again."""
     work = batch.work
@@ -333,13 +341,13 @@ def meet_lane(
     met = _resolve_at(batch.resolve, given)
     if met == TORN:
         return True
-    note_strain(batch, start + cloth, met)
+    note_strain(batch, start + cloth, step, met)
     take_lane(y, u, batch, cloth, dt, met)
     return False
 
 
 @kernel
-def limit_lane(y: Any, u: Any, batch: Any, start: Any, cloth: Any, dt: Any) -> None:
+def limit_lane(y: Any, u: Any, batch: Any, start: Any, cloth: Any, step: Any, dt: Any) -> None:
     """Limit the strain of one lane that meets nothing."""
     work = batch.work
     for i in range(work.end.shape[0]):
@@ -347,7 +355,7 @@ def limit_lane(y: Any, u: Any, batch: Any, start: Any, cloth: Any, dt: Any) -> N
             work.end[i, axis] = work.solved[i, axis] = y[3 * i + axis, cloth]
             work.start[i, axis] = work.solved[i, axis] - dt * u[3 * i + axis, cloth]
     met = call_limit(batch.limit_strain, (work.start, work.end, batch.limit))
-    note_strain(batch, start + cloth, LONG)
+    note_strain(batch, start + cloth, step, LONG)
     take_lane(y, u, batch, cloth, dt, met)
 
 
@@ -365,11 +373,11 @@ def take_lane(y: Any, u: Any, batch: Any, cloth: Any, dt: Any, met: Any) -> None
 
 
 @kernel
-def note_strain(batch: Any, cloth: Any, met: Any) -> None:
-    """Note how far a spring of a cloth is over its limit, if it was not held. met: of `resolve`."""
+def note_strain(batch: Any, cloth: Any, step: Any, met: Any) -> None:
+    """Note how far a spring of a cloth is over its limit, if it was not held in a step. met: of
+    `resolve`."""
     if met == LONG:
-        ratio = longest_ratio(batch.work.end, batch.limit)
-        batch.strains[cloth] = max(batch.strains[cloth], ratio)
+        note_longest(batch.strains[:, cloth], batch.work.end, batch.limit, step)
 
 
 @kernel
@@ -424,7 +432,7 @@ def meet_plane(
         else:
             given = work.start, work.end, batch.limit
             met = LONG * call_limit(batch.limit_strain, given)
-        note_strain(batch, cloth, met)
+        note_strain(batch, cloth, when[0], met)
         for i in range(work.end.shape[0] if met else 0):
             lane = lane_of(i, sheet)
             if row(work.end, i) != row(work.solved, i):

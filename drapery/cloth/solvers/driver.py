@@ -24,7 +24,7 @@ from drapery.cloth.forces import Force, Loads, custom_accelerations, lower_force
 from drapery.cloth.pins import PinPath
 from drapery.cloth.solvers.base import all_finite, check_state, check_step
 from drapery.cloth.state import State
-from drapery.cloth.strain import HELD_TO, NEVER, StrainLimit, limit_strain
+from drapery.cloth.strain import NEVER, NOTES, StrainLimit, limit_strain
 from drapery.cloth.wind import Gusts
 from drapery.errors import OptionError, counted
 from drapery.jit import (
@@ -87,8 +87,8 @@ class Batch(NamedTuple):
         arrays for it, which no other thread uses.
     often: see `SolverState`. cloths: their number, B.
     limit: the longest springs, see `drapery.cloth.strain`. squares: of their lengths [m²], [1, S];
-        for a plane of lanes see `plane_squares`. strains: the longest spring of each cloth over its
-        limit, in steps in which that was not held; 0 where it was, [B].
+        for a plane of lanes see `plane_squares`. strains: of the worst step of each cloth in which
+        its limit was not held, see `NOTES`; 0 where it was, [6, B].
     limit_strain, blow, add_winds, meet_lanes: addresses of these functions; 0 for those that the
         kernel does not call.
     width: lanes of a block.
@@ -220,15 +220,15 @@ class KernelSolver:
         loads = lower_forces(forces, cloth, len(state.positions))
         at_once = 1 if loads.custom else steps
         threads = lanes.thread_count(self.threads)
-        worst, strain = 0.0, state.strain
+        unsolved, worst = 0.0, state.worst
         for _ in range(steps // at_once):
             state, residual = _advance(
                 cloth, state, solver_state, loads, at_once, pins, threads, boxes
             )
-            worst, strain = max(worst, residual), max(strain, state.strain)
-        if worst > 0:
-            self.warn_unsolved(worst)
-        return replace(state, strain=strain), solver_state
+            unsolved, worst = max(unsolved, residual), strain.worse(worst, state.worst)
+        if unsolved > 0:
+            self.warn_unsolved(unsolved)
+        return replace(state, worst=worst), solver_state
 
     def warn_unsolved(self, residual: float) -> None:
         """For solvers that iterate: warn of a residual, given as a multiple of the tolerance."""
@@ -262,12 +262,11 @@ def _advance(
             "use a smaller dt, weaker forces or another solver"
         )
     time = state.time + steps * solver_state.dt
-    over = float(batch.strains.max(initial=0.0)) - 1
     moved = State(
         lanes.from_lanes(batch.new_x, count),
         lanes.from_lanes(batch.new_v, count),
         time,
-        over if over > HELD_TO else 0.0,
+        strain.worst_noted(batch.strains, batch.limit, state.time, solver_state.dt),
     )
     return moved, float(batch.residuals.max(initial=0.0))
 
@@ -315,7 +314,7 @@ def batch_of(
         len(state.positions),
         limit,
         squares.astype(dtype),
-        np.zeros(x.shape[1]),
+        np.zeros((NOTES, x.shape[1])),
         0,
         0,
         0,
