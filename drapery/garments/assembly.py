@@ -6,7 +6,7 @@ from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 
-from drapery.arrays import Integers, Vectors
+from drapery.arrays import Integers, Mask, Vectors
 from drapery.banner.names import shown
 from drapery.banner.packs import Packs
 from drapery.cloth import Cloth, Fabric, Seam, sew
@@ -39,6 +39,7 @@ class SewnCloth:
     bones: what each pinned particle is fastened to, in the order of the particles.
     solid: the bones that stop it; None for all.
     distance: twice the distance of its particles from what it meets [m].
+    unpinned: 1 over the mass of each particle if nothing held it [1/kg], shape [N].
     order: of its garment among those of one wearer; higher ones lie outside lower ones.
     """
 
@@ -50,6 +51,7 @@ class SewnCloth:
     bones: tuple[str, ...]
     solid: tuple[str, ...] | None
     distance: float
+    unpinned: Vectors
     order: int = 0
 
     @property
@@ -80,6 +82,17 @@ class SewnCloth:
             return places
 
         return PinTable(at)
+
+    def without(self, pins: Mask) -> "SewnCloth":
+        """The cloth with fewer pins.
+
+        pins: those that it loses, in the order of the particles.
+        """
+        loose = np.flatnonzero(self.cloth.inv_mass == 0)[pins]
+        inv_mass = self.cloth.inv_mass.copy()
+        inv_mass[loose] = self.unpinned[loose]
+        bones = tuple(bone for bone, lost in zip(self.bones, pins, strict=True) if not lost)
+        return replace(self, cloth=replace(self.cloth, inv_mass=inv_mass), bones=bones)
 
     def models(self, positions: Vectors) -> list[ClothModel]:
         """Its pieces, thick. positions: of the particles [m], shape [N, 3]."""
@@ -155,6 +168,7 @@ def _sewn(
         tuple(bones[particle] for particle in sorted(bones)),
         garment.wearer.solid if garment.wearer else None,
         garment.thickness * garment.texel * (1 + LAYER * layer),
+        cloth.inv_mass,
     )
 
 

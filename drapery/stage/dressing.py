@@ -38,6 +38,7 @@ from drapery.stage.forces import in_wind, wind_of
 from drapery.stage.layered import common_bones, joint_contact, meet_each_other
 from drapery.stage.recording import Drape, Meeting, Schedule, record
 from drapery.stage.staging import Staging
+from drapery.stage.swept_pins import without_swept_pins
 from drapery.stage.wearers import Wearer, wearer_of
 from drapery.style.block import turn_matrix
 from drapery.style.block_world import Cell, blocks
@@ -112,7 +113,7 @@ class Dressed:
             if any(_begins_in(each, box) for each in sewn):
                 for _ in range(BEHIND_ROUNDS):
                     sewn = put_behind(put_outside(sewn), box.centre - half, box.centre + half)
-        return sewn
+        return tuple(without_swept_pins(each, self.wearer) for each in sewn)
 
     @cached_property
     def wearer(self) -> Wearer | None:

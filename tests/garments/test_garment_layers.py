@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
+from drapery import Settings
 from drapery.cloth import Collisions, State, grid, max_stretch, rotation_about, sew
 from drapery.cloth.collisions import contact_stage
 from drapery.garments import SewnCloth, dressed_player, find_garment, make_wearer, tailor
@@ -143,6 +144,35 @@ def test_a_poncho_is_not_torn_by_a_head_that_tilts_back() -> None:
     (sheets,) = dressed.record(Schedule.at([0.5, 1.0], dressed.step, round(0.5 / dressed.step)))
     (sewn,) = dressed.cloths
     assert max(max_stretch(sheet, sewn.cloth) for sheet in sheets) < 0.16
+
+
+SWIMMING = [("hood", {}), ("tabard", {}), ("poncho", {}), ("poncho", {"solver": "pbd", "wind": 40})]
+
+
+@pytest.mark.filterwarnings("ignore:pins or colliders pull cloth")  # for a step, by a part
+@pytest.mark.parametrize(("name", "options"), SWIMMING)
+def test_arms_that_sweep_over_pins_do_not_tear_a_garment(name, options) -> None:
+    player = dressed_player(make_wearer(motion="swim"), wear=(name,))
+    settings = Settings(**{**player.settings().given_values, **options})
+    dressed = Dressed(player, open_packs(()), settings)
+    swum = dressed.record(Schedule.at([1.25, 1.375, 1.5, 1.625, 1.875], dressed.step))
+    for sewn, places in zip(dressed.cloths, swum, strict=True):
+        assert max(max_stretch(each, sewn.cloth) for each in places) < 0.2
+
+
+def pins_of(name: str, motion: str) -> int:
+    player = dressed_player(make_wearer(motion=motion), wear=(name,))
+    cloths = Dressed(player, open_packs(()), player.settings()).cloths
+    assert all(len(each.bones) == (each.cloth.inv_mass == 0).sum() for each in cloths)
+    return sum(len(each.bones) for each in cloths)
+
+
+def test_only_pins_that_a_limb_sweeps_over_hold_nothing() -> None:
+    """The seated wearer's legs stay in the waist of a skirt, and a scarf lies in its arms."""
+    assert pins_of("hood", "walk") - pins_of("hood", "swim") == 2
+    assert pins_of("skirt", "walk") == pins_of("skirt", "sit")
+    assert pins_of("scarf", "walk") == pins_of("scarf", "swim")
+    assert pins_of("cape", "walk") == pins_of("cape", "swim")
 
 
 def test_the_hem_of_a_skirt_on_a_runner_lies_in_folds_and_swings() -> None:
