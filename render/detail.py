@@ -21,8 +21,8 @@ class DetailTables:
     """The details of L materials.
 
     rows: the first texel in `tiles` or -1 for no detail, the power of two that is the tile's side,
-        the tile's texels along a whole u and v, and the first texel of the strips or -1 for none;
-        shape [L, 5], int32.
+        the tile's texels along a whole u and v, the first texel of the strips or -1 for none, and
+        how many of their columns change what shows; shape [L, 6], int32.
     edges: left, top, right and bottom of two parts of the texture [1/256 texels of the tile]; shape
         [L, 2, 4], int64.
     finishes: gloss, across, along, fuzz and sharpness, see `SurfaceDetail`; shape [L, 5].
@@ -38,7 +38,7 @@ class DetailTables:
 
 def make_detail_tables(details: Sequence[SurfaceDetail | None]) -> DetailTables:
     """The tables of the details of materials in their order. Raises OptionError."""
-    rows = np.full((len(details), 5), -1, np.int32)
+    rows = np.full((len(details), 6), -1, np.int32)
     edges = np.zeros((len(details), 2, 4), np.int64)
     finishes = np.zeros((len(details), 5))
     tiles: list[NDArray[np.int64]] = []
@@ -59,7 +59,7 @@ def make_detail_tables(details: Sequence[SurfaceDetail | None]) -> DetailTables:
                 starts[id(detail.strips)] = count
                 tiles += [_copies(strip) for strip in _checked_strips(detail)]
                 count += sum(map(len, tiles[-2:]))
-            rows[number, 4] = starts[id(detail.strips)]
+            rows[number, 4:] = starts[id(detail.strips)], _width(detail.strips)
             scale = 256 * np.array([across, down, across, down])
             edges[number] = np.rint(np.array(detail.edges) * scale)
         shares = detail.gloss, detail.across, detail.along, detail.fuzz, detail.sharpness
@@ -76,6 +76,12 @@ def _checked_strips(detail: SurfaceDetail) -> Texels:
         given = counted(len(detail.edges), "edge")
         raise OptionError(f"a detail with strips has {given}; use one or two")
     return strips
+
+
+def _width(strips: Texels) -> int:
+    """Columns of strips up to the last one that is not level and without a tone and a share."""
+    changes = (strips != np.array([128, 128, 128, 255])).any(axis=(0, 1, 3))
+    return int(np.flatnonzero(changes).max(initial=-1)) + 1
 
 
 def _side(tile: Texels) -> int:

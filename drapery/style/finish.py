@@ -7,7 +7,7 @@ as real ones, so that a picture of a few hundred pixels shows them.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from types import MappingProxyType
 from typing import Any
 
@@ -16,7 +16,6 @@ import numpy as np
 from drapery.arrays import Texels
 from drapery.elementary import sine_of_turns
 from drapery.mesh import Array
-from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, SurfaceDetail
 from drapery.style.edges import (
     blanket_stitch,
@@ -147,8 +146,6 @@ FINISHES: Mapping[str, Finish] = MappingProxyType(
 )
 """By the names of fabrics; see `drapery.cloth.FABRICS`."""
 
-_finished: IdentityCache[Material] = IdentityCache(32)
-
 
 def finished(
     material: Material,
@@ -157,20 +154,18 @@ def finished(
     mapping: UVMapping,
     size: tuple[float, float],
 ) -> Material:
-    """A material with the look of a fabric; the same object for the same material.
+    """A material with the look of a fabric.
 
     fabric: a name of `FINISHES`. transmission: see `Material`.
     mapping: where the cloth lies on its texture. size: width and height of the cloth [m].
     """
-
-    def make() -> Material:
-        detail = _detail(fabric, mapping, size)
-        return replace(material, detail=detail, transmission=transmission)
-
-    return _finished.get((material,), (fabric, transmission, mapping, size), make)
+    detail = _detail(fabric, mapping, size)
+    return replace(material, detail=detail, transmission=transmission)
 
 
+@lru_cache(maxsize=32)
 def _detail(fabric: str, mapping: UVMapping, size: tuple[float, float]) -> SurfaceDetail:
+    """The same object for the same cloth, by which tables of materials are found again."""
     look, ends = FINISHES[fabric], np.array([[0.0, 0.0], [1.0, 1.0]])
     front, back = mapping.front(ends), mapping.back(ends)
     across, down = np.abs(front[1] - front[0]) * SIDE / PITCH

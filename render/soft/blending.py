@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel
 from drapery.render.soft.bins import STRIDE, TILE
 
 OPAQUE_BITS = 0xFF000000
@@ -20,7 +20,7 @@ UNLIT = -1
 """In place of light where it does not reach: the colour stays as it is."""
 
 
-@kernel
+@borrowing_kernel
 def lay_over(top: Any, below: Any) -> Any:
     """Straight-alpha colours, one over the other, in 8 bits as the game blends."""
     a, d = top >> 24, below >> 24
@@ -41,7 +41,7 @@ def lay_over(top: Any, below: Any) -> Any:
     return ((total + 127) // 255) << 24 | blue << 16 | green << 8 | red
 
 
-@kernel
+@borrowing_kernel
 def tinted(texel: Any, red: Any, green: Any, blue: Any) -> Any:
     """round(texel * tint / 255) for each channel; the alpha is kept."""
     r = ((texel & 255) * red + 127) // 255
@@ -50,7 +50,7 @@ def tinted(texel: Any, red: Any, green: Any, blue: Any) -> Any:
     return (texel & OPAQUE_BITS) | b << 16 | g << 8 | r
 
 
-@kernel
+@borrowing_kernel
 def factors_of(light: Any, tint: Any) -> Any:
     """Light of a tint, for red, green and blue: uint32 in units of 1 / FULL_LIGHT.
 
@@ -64,7 +64,7 @@ def factors_of(light: Any, tint: Any) -> Any:
     )
 
 
-@kernel
+@borrowing_kernel
 def lit(colour: Any, light: Any, factors: Any) -> Any:
     """round(colour * factor) for each channel, or the colour itself where `light` is UNLIT.
 
@@ -79,7 +79,7 @@ def lit(colour: Any, light: Any, factors: Any) -> Any:
     return np.uint32(shaded) if light >= 0 else colour
 
 
-@kernel
+@borrowing_kernel
 def resolve(
     colours: Any,
     x0: Any,
@@ -115,7 +115,7 @@ def resolve(
                 picture[at] = _mean(colours, corner + column * grid, grid)
 
 
-@kernel
+@borrowing_kernel
 def _add_samples(colours: Any, corner: Any, grid: Any, sums: Any) -> Any:
     """Average the grid x grid samples from each sample of a row on, as if they were opaque.
 
@@ -146,7 +146,7 @@ def _add_samples(colours: Any, corner: Any, grid: Any, sums: Any) -> Any:
         sums[k] = low | high << np.uint32(8)
 
 
-@kernel
+@borrowing_kernel
 def _mean(colours: Any, corner: Any, grid: Any) -> Any:
     """The average of grid x grid samples from a corner, weighted by their opacity."""
     alpha = red = green = blue = np.int64(0)

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from drapery.jit import entry_point, kernel
+from drapery.jit import borrowing_kernel, entry_point
 from drapery.render.soft.bins import LANES
 from drapery.render.soft.blending import FULL_LIGHT
 
@@ -17,7 +17,7 @@ TAPS_MIDDLE = 1.5
 """Places of the shadow map along one side of the square that is compared, and their middle."""
 
 
-@kernel
+@borrowing_kernel
 def cast_shadows(
     t: Any,
     x: Any,
@@ -100,7 +100,7 @@ def find_shaded(
         shaded[t] = more > 0 and not _is_lit(a, b, c, receivers, depths, side, reach)
 
 
-@kernel
+@borrowing_kernel
 def _is_lit(a: Any, b: Any, c: Any, receivers: Any, depths: Any, side: Any, reach: Any) -> Any:
     """Whether nothing within reach of a triangle on the shadow map is nearer than its plane there.
 

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from drapery.jit import entry_point, kernel
+from drapery.jit import borrowing_kernel, entry_point
 from drapery.render.soft.bins import ID_BITS, ID_MASK, LANES, STRIDE, TILE, TILE_BITS
 from drapery.render.soft.projection import NEAREST
 from drapery.render.soft.triangle_setup import texels_of
@@ -31,7 +31,7 @@ LAYER = TILE * STRIDE
 OPAQUE, CUTOUT, BLEND = 0, 1, 2
 
 
-@kernel
+@borrowing_kernel
 def _edge(ax: Any, ay: Any, bx: Any, by: Any) -> Any:
     """The edge function from a to b: its steps to the right and down by one sample, and its value
     at the tile's first sample, less one if the edge belongs to the neighbouring triangle."""
@@ -42,7 +42,7 @@ def _edge(ax: Any, ay: Any, bx: Any, by: Any) -> Any:
     return right, down, value - (not owned)
 
 
-@kernel
+@borrowing_kernel
 def _depth_plane(
     ax: Any, ay: Any, za: Any, bx: Any, by: Any, zb: Any, cx: Any, cy: Any, zc: Any, area: Any
 ) -> Any:
@@ -60,7 +60,7 @@ def _depth_plane(
     return za * KEY_SCALE - ax * step_right - ay * step_down, step_right << 8, step_down << 8
 
 
-@kernel
+@borrowing_kernel
 def cover_tile(
     first: Any,
     last: Any,
@@ -144,7 +144,7 @@ def cover_tile(
     return edge_left, edge_right, edge_top, edge_bottom
 
 
-@kernel
+@borrowing_kernel
 def cover_solid(
     tile: Any,
     tiles_x: Any,
@@ -170,7 +170,7 @@ def cover_solid(
     return x0, y0
 
 
-@kernel
+@borrowing_kernel
 def weights_at(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     """Edge functions over w of triangle t's corners at a sample, and their steps to the right."""
     a, b, c = vertices[triangles[t, 0]], vertices[triangles[t, 1]], vertices[triangles[t, 2]]
@@ -187,7 +187,7 @@ def weights_at(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     )
 
 
-@kernel
+@borrowing_kernel
 def _uv_at(t: Any, x: Any, y: Any, vertices: Any, triangles: Any) -> Any:
     """Texture coordinates of triangle t at one sample."""
     a, b, c = vertices[triangles[t, 0]], vertices[triangles[t, 1]], vertices[triangles[t, 2]]

@@ -172,7 +172,7 @@ def draw_live(positions: Any, normals: Any, live: Any) -> Any:
         (live.shaded, (live.depths, 0, 0.0)),
         (
             np.empty((0, 4), np.float32),
-            np.empty((0, 5), np.int32),
+            np.empty((0, 6), np.int32),
             np.empty(0, np.int64),
             np.empty((0, 2, 4), np.int64),
         ),

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from drapery.jit import entry_point, kernel
+from drapery.jit import borrowing_kernel, entry_point
 from drapery.render.soft.bins import ID_BITS, ID_MASK, LANES, STRIDE, TILE, TILE_BITS
 from drapery.render.soft.blending import (
     FULL_LIGHT,
@@ -18,11 +18,11 @@ from drapery.render.soft.blending import (
 )
 from drapery.render.soft.cast import cast_shadows
 from drapery.render.soft.coverage import BLEND, LAYER, cover_tile
-from drapery.render.soft.detail import add_detail, add_gloss, glossy
+from drapery.render.soft.detail import PLACES, add_details, add_gloss, glossy
 from drapery.render.soft.triangle_setup import SETUP, SLOTS, set_up, texels_of, weights_of
 
 
-@kernel
+@borrowing_kernel
 def _find_runs(keys: Any, start: Any, left: Any, right: Any, runs: Any) -> Any:
     """The number of runs of one triangle, or none, among the samples left..right of a row.
 
@@ -39,7 +39,7 @@ def _find_runs(keys: Any, start: Any, left: Any, right: Any, runs: Any) -> Any:
     return count
 
 
-@kernel
+@borrowing_kernel
 def _lay_layers(
     material: Any,
     first: Any,
@@ -83,7 +83,7 @@ def _lay_layers(
             shown[np.uint64(k)] = lay_over(texel, np.int64(shown[np.uint64(k)]))
 
 
-@kernel
+@borrowing_kernel
 def _light_row(row: Any, shown: Any, light: Any, tint: Any, seen: Any, colours: Any) -> Any:
     """Light the colours of a row's samples that a solid triangle covers.
 
@@ -104,7 +104,7 @@ def _light_row(row: Any, shown: Any, light: Any, tint: Any, seen: Any, colours: 
         colours[at] = colour if is_seen else colours[at]
 
 
-@kernel
+@borrowing_kernel
 def _blend_row(
     row: Any,
     left: Any,
@@ -118,11 +118,10 @@ def _blend_row(
 ) -> Any:
     """Lay the samples left..right of a triangle that blends over the colours of a row.
 
-    shine: their gloss, see `add_detail`; it is filled with 0 for the next row.
+    shine: their gloss, see `add_details`.
     """
     for x in range(left, right + 1):
         share = np.int64(shine[x])
-        shine[x] = 0
         if seen[LAYER + row * STRIDE + x]:
             colour = np.int64(lit(shown[x], light[x], factors_of(light[x], tint)))
             if share > 0:
@@ -130,7 +129,7 @@ def _blend_row(
             colours[row * TILE + x] = lay_over(colour, np.int64(colours[row * TILE + x]))
 
 
-@kernel
+@borrowing_kernel
 def _shade_tile(
     layer: Any,
     bounds: Any,
@@ -153,20 +152,21 @@ def _shade_tile(
     tint: see `lit`. receivers, shadows, details: see `draw_tiles`. grid: samples along a pixel's
         side.
     scratch: setups of triangles; of each sample of a row the runs, light, place in the atlas,
-        colour and gloss; then the scratch of `cast_shadows`.
+        colour and gloss; then the scratch of `cast_shadows` and of `add_details`.
     The layers of a run are composited first, and a row is lit once at the end. A loop goes over
     whole groups of samples, so that it can be vectorised: what is beyond a run is overwritten by
     the next one, or not seen.
     """
     _, triangles, triangle_material = mesh
     materials, _, atlas, wide = tables
-    setups, (runs, light, place, shown, shine), dusk = scratch
+    setups, (runs, light, place, shown, shine), dusk, places = scratch
     is_detailed = len(details[0]) > 0
     solid = np.uint32(0 if layer else OPAQUE_BITS)
     left, right, top, bottom = bounds
     for row in range(top, bottom + 1):
         start = layer + row * STRIDE
-        for run in range(_find_runs(keys, start, left, right, runs)):
+        found = _find_runs(keys, start, left, right, runs)
+        for run in range(found):
             x, until = np.int64(runs[np.uint64(run)]), np.int64(runs[np.uint64(run + 1)])
             t = (keys[np.uint64(start + x)] & ID_MASK) - 1
             if t < 0:
@@ -217,10 +217,23 @@ def _shade_tile(
                     light,
                     dusk,
                 )
-            if is_detailed and setup.is_lit and details[1][triangle_material[t], 0] >= 0:
-                lines = w0, dw, u0, du, v0, dv
-                weights = wa, wb, wc, setup.da, setup.db, setup.dc
-                add_detail(t, x, count, lines, weights, mesh, details, grid, setup, light, shine)
+        if is_detailed:
+            add_details(
+                x0,
+                y0 + row,
+                start,
+                found,
+                runs,
+                keys,
+                mesh,
+                tables,
+                details,
+                grid,
+                setups,
+                light,
+                shine,
+                places,
+            )
         if layer:
             _blend_row(row, left, right, shown, light, shine, tint, keys, colours)
         else:
@@ -292,6 +305,12 @@ def draw_tiles(
             np.empty(STRIDE, np.int32),
             np.empty(STRIDE, np.int32),
             np.empty(STRIDE, np.int32),
+        ),
+        (
+            np.zeros(7 * PLACES),
+            np.zeros(6 * PLACES, np.int64),
+            np.zeros(4 * PLACES, np.int32),
+            np.zeros(TILE, np.int32),
         ),
     )
     for tile in range(part, len(starts) - 1, parts):

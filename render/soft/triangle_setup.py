@@ -4,13 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel
 from drapery.render.soft.blending import FULL_LIGHT
 
 SLOTS = 256
 """Triangles whose setup is kept, a power of two: most are met again in the next row of the tile."""
 
-_INTEGERS = "triangle origin a0 ax ay b0 bx by c0 cx cy level mix edge"
+_INTEGERS = "triangle origin a0 ax ay b0 bx by c0 cx cy level mix copy edge"
 _FLOATS = (
     "inv_wa inv_wb inv_wc ua ub uc va vb vc sa sb sc da db dc dw du dv ds"
     " across i_low i_high down j_low j_high"
@@ -19,6 +19,7 @@ SETUP = np.dtype(
     [
         *((name, np.int64) for name in _INTEGERS.split()),
         *((name, np.float64) for name in _FLOATS.split()),
+        ("lean", np.float64, (4, 4)),
         ("is_lit", np.bool_),
         ("is_plain", np.bool_),
     ],
@@ -32,13 +33,14 @@ a0, ax, ay: the edge function opposite corner a at the picture's first sample, a
 inv_wa, ua, va, sa: 1 / w, u, v and brightness of corner a. da: step to the right of the edge
     function over w. dw, du, dv, ds: of 1 / w, and of u, v and light over w.
 across, down: texels of the lowest layer; i_low, i_high, j_low, j_high: those that may be seen.
-level, mix: of the detail, -1 where they are not known yet; see `add_detail`. edge: the part of the
-    texture at whose edge it lies, -1 for none.
+level, mix: of the detail, -1 where they are not known yet; see `add_details`. copy: the first texel
+    of the tile's copy. edge: the part of the texture at whose edge it lies, -1 for none.
+lean: each number of `lean_vertices` at the corners, and its step to the right over w.
 is_plain: whether that layer is the only one and has no tint.
 """
 
 
-@kernel
+@borrowing_kernel
 def set_up(t: Any, mesh: Any, tables: Any, setup: Any) -> Any:
     """Prepare triangle t. mesh, tables: see `draw_tiles`; setup: the result, a SETUP."""
     vertices, triangles, triangle_material = mesh
@@ -73,7 +75,7 @@ def set_up(t: Any, mesh: Any, tables: Any, setup: Any) -> Any:
     setup.is_plain = materials[material, 1] == 1 and red & green & blue == 255
 
 
-@kernel
+@borrowing_kernel
 def texels_of(a: Any, b: Any, c: Any, count: Any) -> Any:
     """The first and last of `count` texels that a triangle with these u or v at its corners shows.
 
@@ -84,7 +86,7 @@ def texels_of(a: Any, b: Any, c: Any, count: Any) -> Any:
     return first, last
 
 
-@kernel
+@borrowing_kernel
 def weights_of(setup: Any, x: Any, y: Any) -> Any:
     """Edge functions over w of a triangle's corners at a sample, as `weights_at` gives them."""
     return (

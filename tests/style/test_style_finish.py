@@ -13,6 +13,7 @@ from drapery.errors import OptionError
 from drapery.mesh import Mesh, make_mesh
 from drapery.packs import open_packs
 from drapery.render import Camera, Material, Model, Scene, SurfaceDetail, TextureLayer
+from drapery.render.drawlist import make_topology
 from drapery.render.light import STUDIO_LIGHT, UNLIT, Light
 from drapery.render.soft import draw_scene
 from drapery.scenes import still
@@ -71,6 +72,13 @@ def test_a_plain_finish_leaves_materials_as_they_are() -> None:
         materials = [material for model in scene.models for material in model.materials]
         assert any(material.detail is not None for material in materials) == has_detail
         assert any(material.transmission for material in materials) == has_detail
+
+
+def test_pictures_of_a_design_share_the_tables_of_their_finish() -> None:
+    settings = Settings(finish="fabric", fabric="silk", **HERO)
+    scenes = [still(CREEPER, open_packs(), replace(settings, seed=seed)) for seed in (1, 2)]
+    one, other = (make_topology(scene.models).material_tables for scene in scenes)
+    assert one is other
 
 
 def test_fabrics_can_be_told_apart_by_their_finish_alone() -> None:
@@ -265,8 +273,11 @@ def test_a_finish_that_would_not_show_is_refused(options: dict[str, Any], words:
 def test_a_fabric_of_a_program_looks_like_its_preset_or_plain() -> None:
     material = Material((TextureLayer(GREY),))
     linen, own = replace(FABRICS["linen"]), Fabric(density=0.123)
-    found = with_finish(material, linen, SHEET_MAPPING, (METRE, METRE))
-    assert found is with_finish(material, "linen", SHEET_MAPPING, (METRE, METRE))
+    found, preset = (
+        with_finish(material, fabric, SHEET_MAPPING, (METRE, METRE)) for fabric in (linen, "linen")
+    )
+    assert found.detail is preset.detail is not None
+    assert found.transmission == preset.transmission
     assert with_finish(material, own, SHEET_MAPPING, (METRE, METRE)) is material
 
 
@@ -277,3 +288,24 @@ def test_a_tile_that_cannot_repeat_is_refused(tile: Any) -> None:
     material = Material((TextureLayer(GREY),), detail=SurfaceDetail(tile, (1.0, 1.0)))
     with pytest.raises(OptionError, match="tile of a detail"):
         draw_scene(Scene((Model(wavy(), (material,)),), Camera((0, 0, 2.0), (0, 0, 0)), (8, 8)))
+
+
+@pytest.mark.parametrize("name", ["silk", "leather"])
+@pytest.mark.parametrize("side", [384, 200, 96])
+def test_a_strip_shows_no_further_than_it_changes_the_tile(name: str, side: int) -> None:
+    """A texel beside its inner side makes the renderer read all of it; nearer, nothing changes."""
+    scene = sheet(name, side)
+    (material,) = scene.models[0].materials
+    detail = material.detail
+    assert detail is not None and detail.strips is not None
+    strips = detail.strips.copy()
+    assert (strips[:, :, 16:] == (128, 128, 128, 255)).all()
+    strips[:, :, -1, 2] = 0
+    marked = replace(material, detail=replace(detail, strips=strips))
+    other = replace(scene, models=(replace(scene.models[0], materials=(marked,)),))
+    middle = slice(side // 3, -side // 3)
+    changes = (brightness(scene) != brightness(other))[middle].any(axis=0)
+    # The picture shows nine tenths of the sheet, which is 384 texels wide.
+    texels = 384 * 0.9 / side
+    away = 384 * 0.05 + np.flatnonzero(changes)[0] * texels
+    assert 32 - 5 * texels < away < 32
