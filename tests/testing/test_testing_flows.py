@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import pytest
 from conftest import Run
+from plain_runs import PLAIN
 
 pytest_plugins = ["pytester"]
 
@@ -28,7 +29,7 @@ def project(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> Proje
         if code is not None:
             pytester.makepyfile(test_it=HEAD + code)
         monkeypatch.setenv("LEVEL", str(variables.get("LEVEL", 10)))
-        return pytester.runpytest_inprocess("-p", "no:cacheprovider", *words.split())
+        return pytester.runpytest_inprocess(*PLAIN, *words.split())
 
     return run
 
@@ -347,7 +348,7 @@ def test_a_project_has_its_own_defaults(pytester: pytest.Pytester, project: Proj
 
 def test_odd_names_raise_no_warning(pytester: pytest.Pytester) -> None:
     pytester.makepyfile(test_it=HEAD + MANY)
-    words = "-q", "-W", "error", "-p", "no:cacheprovider"
+    words = "-q", "-W", "error", *PLAIN
     assert pytester.runpytest_subprocess(*words, "--drapery-update").ret == 0
     assert pytester.runpytest_subprocess(*words).ret == 0
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from PIL import Image
+from plain_runs import PLAIN
 
 from drapery.banner.packs import open_packs
 from release.build import MAX_WHEEL, copy_sources, size_of_sources
@@ -20,9 +21,6 @@ def test_creeper(golden):
     banner = Banner.parse("white creeper:lime border:black")
     golden(draw(banner, packs=["pack"], size=(96, 128)), banner=banner, packs=["pack"])
 """
-
-NOT_OURS = ("cacheprovider", "hypothesispytest", "anyio", "beet", "pytest_cov")
-"""Plugins that the lent packages bring: their imports take over half of a short run."""
 
 Pytest = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -56,8 +54,7 @@ def outside(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path
     clean = {k: v for k, v in os.environ.items() if not k.startswith(("PYTEST", "PYTHONPATH"))}
 
     def run(*words: str) -> subprocess.CompletedProcess[str]:
-        plain = [word for name in NOT_OURS for word in ("-p", f"no:{name}")]
-        command = [str(python), "-m", "pytest", "-q", *plain, *words]
+        command = [str(python), "-m", "pytest", "-q", *PLAIN, *words]
         return subprocess.run(command, cwd=project, env=clean, capture_output=True, text=True)
 
     (project / "test_banner.py").write_text(PROJECT_TEST)
@@ -143,7 +140,7 @@ def test_harmed_and_unused_goldens_are_named_by_workers_in_one_report(
     assert "4 goldens not as expected" in page
 
     assert run("--drapery-update").returncode == 0
-    listed, pruned = run().stdout, run("-n", "2", "--drapery-prune").stdout
+    listed, pruned = run().stdout, run("--drapery-prune").stdout
     assert re.search(r"drapery: \d goldens? (is|are) named by no test", listed)
     assert re.search(r"drapery: \d goldens? deleted", pruned)
     left = {path.stem.partition("[")[0] for path in project.glob("goldens/*/*.png")}
