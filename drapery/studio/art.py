@@ -9,16 +9,9 @@ from zlib import crc32
 import numpy as np
 
 from drapery import Banner, Layer, OptionError, Settings
-from drapery.arrays import Texels
-from drapery.banner import (
-    FLAG_REGIONS,
-    SHIELD_REGIONS,
-    composite,
-    flag_layers,
-    shield_layers,
-    write_banner,
-)
-from drapery.packs import Packs, read_png
+from drapery.banner import FLAG_REGIONS, composite, flag_layers, write_banner
+from drapery.packs import Packs
+from drapery.pictures import face_pixels
 from drapery.render import draw_scene, png_bytes
 from drapery.scenes import still
 from drapery.studio.document import Document
@@ -41,11 +34,7 @@ MAX_STYLES = 128
 
 def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
     """The flat face: 20 x 40 units (shield: 12 x 22) of `scale` pixels each. Raises PackError."""
-    if banner.kind == "banner":
-        region, layers = FLAG_REGIONS["front"], flag_layers(banner, packs)
-    else:
-        region, layers = SHIELD_REGIONS["front"], shield_layers(banner, packs)
-    return png_bytes(region.sample(composite(layers), scale))
+    return png_bytes(face_pixels(banner, packs, scale, kind=banner.kind))
 
 
 def face_address(
@@ -74,32 +63,21 @@ def pattern_names(packs: Packs) -> tuple[str, ...]:
 
 
 _names: WeakKeyDictionary[Packs, tuple[str, ...]] = WeakKeyDictionary()
-_sheets: WeakKeyDictionary[Packs, dict[tuple[str, str], bytes]] = WeakKeyDictionary()
 
 
 def pattern_sheet(packs: Packs, base: str, dye: str) -> bytes:
-    """All patterns of the packs side by side, in one dye on a field of another.
+    """All patterns of the packs in rows, in one dye on a field of another, as a PNG file.
 
     Cells of 20 x 40 pixels in the order of `pattern_names`. Raises PackError, DesignError.
     """
-    drawn = _sheets.setdefault(packs, {})
-    if (base, dye) not in drawn:
-        banners = [Banner(base, (Layer(name, dye),)) for name in pattern_names(packs)]
-        cells = [_cell(packs, banner) for banner in banners]
-        drawn[base, dye] = png_bytes(np.concatenate(cells, axis=1))
-    return drawn[base, dye]
-
-
-def pattern_rows(sheet: bytes) -> bytes:
-    """A sheet of patterns side by side, in rows of COLUMNS, as a PNG file."""
-    texels = read_png(sheet, "the patterns")
-    width, height = CELL
-    cells = texels.reshape(height, -1, width, 4).swapaxes(0, 1)
-    rows = -(-len(cells) // COLUMNS)
+    names, (width, height) = pattern_names(packs), CELL
+    rows = -(-len(names) // COLUMNS)
     page = np.zeros((rows * (height + GAP), COLUMNS * (width + GAP), 4), np.uint8)
-    for number, cell in enumerate(cells):
+    for number, name in enumerate(names):
+        # A small sheet is enough here; high-resolution packs have 256 times as many texels.
+        texels = composite(flag_layers(Banner(base, (Layer(name, dye),)), packs), side=64)
         top, left = number // COLUMNS * (height + GAP), number % COLUMNS * (width + GAP)
-        page[top : top + height, left : left + width] = cell
+        page[top : top + height, left : left + width] = FLAG_REGIONS["front"].sample(texels, 1)
     return png_bytes(page)
 
 
@@ -135,19 +113,10 @@ def style_address(document: Document, style: str) -> str:
     return f"styles/{document.token}/{style}.png?v={crc32(repr(shown).encode()):x}"
 
 
-def _cell(packs: Packs, banner: Banner) -> Texels:
-    # A small sheet is enough here; high-resolution packs have 256 times as many texels.
-    return FLAG_REGIONS["front"].sample(composite(flag_layers(banner, packs), side=64), 1)
-
-
-def sheet_address(
-    document: Document, dye: str, base: str = "", pack: str = "now", *, rows: bool = False
-) -> str:
-    """The address from the page of `pattern_sheet`, or its `pattern_rows`, for a dye on a field.
-
-    base: replaces the dye of the field. pack: as in `face_address`.
-    """
-    words = {"base": base or document.sketch.base, "dye": dye, "rows": rows}
+def sheet_address(document: Document, dye: str, base: str, pack: str) -> str:
+    """The address from the page of `pattern_sheet` for a dye on a field. pack: as in
+    `face_address`."""
+    words = {"base": base, "dye": dye}
     return f"patterns/{document.token}.png?{urlencode(words | _packs(document, pack))}"
 
 

@@ -1,8 +1,7 @@
-"""The garment and the skin of a tab's own: files that were sent, checked and named by the user."""
+"""The garments and the skins of a tab's own: files that its user sent and named."""
 
 import re
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 from drapery import DraperyError
@@ -16,57 +15,46 @@ MAX_PARTICLES = 4096
 MAX_SKIN = 1024
 """The widest skin [pixels]."""
 MAX_NAME = 32
+ENDINGS = {"garment": ".toml", "skin": ".png"}
 MAX_FILES = 64
 """The files that a tab keeps; all are kept, because the steps that Undo goes back may name them."""
 
 
 class GarmentStore:
-    """The last garment and the last skin that were sent.
+    """The garments and skins that were sent.
 
-    path: of the garment, by which `find_garment` finds it. title: what the user sees of it. skin:
-    the path of the skin. names: the user's names of the files by their paths.
+    names: the user's names of the files, by their paths.
     """
 
     def __init__(self, document: Document, uploads: Uploads) -> None:
         self._document = document
         self._uploads = uploads
-        self.path: Path | None = None
-        self.title = ""
-        self.skin: Path | None = None
         self.names: dict[str, str] = {}
 
-    def adopt(self, number: int) -> str:
-        """Check an uploaded garment and keep it in place of the one before; returns its path.
+    def titles(self, purpose: str) -> dict[str, str]:
+        """What the user sees of the garments, or of the skins, by their paths."""
+        found = {path: name for path, name in self.names.items() if path.endswith(ENDINGS[purpose])}
+        if purpose == "skin":
+            return found
+        about = {path: Garment.load(Path(path)).description for path in found}
+        return {path: f"{name}: {about[path]}".removesuffix(": ") for path, name in found.items()}
+
+    def adopt(self, number: int, purpose: str) -> str:
+        """Check an uploaded garment or skin and keep it; returns its path.
 
         Raises OptionError or PackError, whose line names the user's file.
         """
-        self.path = self._keep(number, "garment", ".toml", self._check)
-        found = Garment.load(self.path)
-        self.title = f"{self.names[str(self.path)]}: {found.description}".removesuffix(": ")
-        return str(self.path)
-
-    def adopt_skin(self, number: int) -> str:
-        """Check an uploaded skin and keep it in place of the one before; returns its path.
-
-        Raises OptionError or PackError, whose line names the user's file.
-        """
-        self.skin = self._keep(number, "skin", ".png", lambda path: check_skin(path, MAX_SKIN))
-        return str(self.skin)
-
-    def _keep(
-        self, number: int, purpose: str, ending: str, check: Callable[[Path], object]
-    ) -> Path:
         upload = self._uploads.get(number, purpose)
         if len(self.names) >= MAX_FILES:
             self._uploads.remove(number)
             raise OptionError(f"this tab has {MAX_FILES} garments and skins; open a new one")
         stem = re.sub(r"[^a-z0-9_-]+", "-", Path(upload.name).stem.lower())[:MAX_NAME].strip("-")
         folder = self._document.folder / f"{purpose}-{number}-own"
-        path = folder / f"{stem or purpose}{ending}"
+        path = folder / f"{stem or purpose}{ENDINGS[purpose]}"
         try:
             folder.mkdir()
             path.write_bytes(upload.path.read_bytes())
-            check(path)
+            self._check(path, purpose)
         except OSError as error:
             shutil.rmtree(folder, ignore_errors=True)
             raise OptionError(f"{upload.name} cannot be stored: {error.strerror}") from None
@@ -79,9 +67,12 @@ class GarmentStore:
         finally:
             self._uploads.remove(number)
         self.names[str(path)] = upload.name
-        return path
+        return str(path)
 
-    def _check(self, path: Path) -> None:
+    def _check(self, path: Path, purpose: str) -> None:
+        if purpose == "skin":
+            check_skin(path, MAX_SKIN)
+            return
         garment = Garment.load(path)
         # Whoever made the file must not choose what is read here.
         if named := garment.named_paths:

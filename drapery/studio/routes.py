@@ -20,7 +20,7 @@ from drapery import DesignError, DraperyError, OptionError
 from drapery.banner import parse_banner
 from drapery.file_formats import KIND_NAMES, format_of
 from drapery.packs import Packs, open_packs
-from drapery.studio.art import face_png, pattern_names, pattern_rows, pattern_sheet, style_png
+from drapery.studio.art import face_png, pattern_names, pattern_sheet, style_png
 from drapery.studio.components import viewer_module
 from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.played import SceneFile, kernel_file, scene_file
@@ -88,16 +88,9 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
         return _compressed(data, "application/octet-stream")
 
     @app.get("/patterns/{token}.png")
-    def patterns(
-        token: str, base: str, dye: str, rows: bool = False, pack: str = "now"
-    ) -> Response:
+    def patterns(token: str, base: str, dye: str, pack: str = "now") -> Response:
         session = session_of(token)
-
-        def draw() -> bytes:
-            sheet = pattern_sheet(_packs(session, pack), base, dye)
-            return pattern_rows(sheet) if rows else sheet
-
-        return _picture(session, draw)
+        return _picture(session, lambda: pattern_sheet(_packs(session, pack), base, dye))
 
     @app.get("/styles/{token}/{name}.png")
     def style(token: str, name: str) -> Response:

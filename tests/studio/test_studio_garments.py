@@ -48,14 +48,14 @@ def send(session: Session, text: str, name: str = "My Shawl.toml") -> int:
     return asyncio.run(session.uploads.receive(pieces(), "garment", name)).number
 
 
-def test_a_file_is_found_by_its_path_until_another_is_sent(session: Session) -> None:
-    path = session.garment_store.adopt(send(session, SHAWL))
+def test_a_file_is_found_by_its_path_as_is_one_sent_later(session: Session) -> None:
+    path = session.garment_store.adopt(send(session, SHAWL), "garment")
     assert find_garment(path).name == "my-shawl"
-    assert session.garment_store.title == "My Shawl.toml: A shawl"
+    assert session.garment_store.titles("garment") == {path: "My Shawl.toml: A shawl"}
     session.viewport.update(garment=path)
     assert session.viewport.shown["note"] == "The garment my-shawl is getting ready."
-    other = session.garment_store.adopt(send(session, SHAWL, "..toml"))
-    assert other != path and str(session.garment_store.path) == other
+    other = session.garment_store.adopt(send(session, SHAWL, "..toml"), "garment")
+    assert [*session.garment_store.titles("garment")] == [path, other]
 
 
 @pytest.mark.parametrize(
@@ -80,27 +80,27 @@ def test_a_file_that_cannot_be_used_is_refused_in_one_line(
 ) -> None:
     number = send(session, SHAWL.replace(old, new))
     with pytest.raises(OptionError, match=said) as caught:
-        session.garment_store.adopt(number)
+        session.garment_store.adopt(number, "garment")
     assert "\n" not in str(caught.value) and str(session.folder) not in str(caught.value)
-    assert session.garment_store.path is None
+    assert not session.garment_store.titles("garment")
     with pytest.raises(DesignError, match="not here any more"):
-        session.garment_store.adopt(number)
+        session.garment_store.adopt(number, "garment")
 
 
 def test_a_garment_has_a_largest_size(session: Session) -> None:
     big = SHAWL.replace("[3, 3]", "[65, 65]")
     with pytest.raises(OptionError, match=f"has 4225 particles; use at most {MAX_PARTICLES}"):
-        session.garment_store.adopt(send(session, big))
+        session.garment_store.adopt(send(session, big), "garment")
     with pytest.raises(DesignError, match=r"is over 65536 bytes; send a smaller one"):
         send(session, "#" * 70_000)
 
 
 def test_a_tab_keeps_so_many_files(session: Session) -> None:
     for _ in range(MAX_FILES):
-        session.garment_store.adopt(send(session, SHAWL))
+        session.garment_store.adopt(send(session, SHAWL), "garment")
     number = send(session, SHAWL)
     with pytest.raises(OptionError, match=f"this tab has {MAX_FILES} garments and skins"):
-        session.garment_store.adopt(number)
+        session.garment_store.adopt(number, "garment")
 
 
 def textures(request: ExportRequest) -> set[str]:
@@ -122,7 +122,7 @@ def test_a_skin_that_is_sent_becomes_a_player_with_the_design_on_its_head(
     def upload(data: bytes) -> int:
         return asyncio.run(session.uploads.receive(pieces(data), "skin", "Me & I.png")).number
 
-    path = session.garment_store.adopt_skin(upload(png_bytes(texels)))
+    path = session.garment_store.adopt(upload(png_bytes(texels)), "skin")
     request = ExportRequest(Banner.parse("red"), session.settings, garment="cape", skin=path)
     player = drawn_garment(request)
     assert player is not None and player.wearer is not None
@@ -149,4 +149,4 @@ def test_a_skin_that_is_sent_becomes_a_player_with_the_design_on_its_head(
         other = drawn_garment(replace(request, garment=name))
         assert other is not None and other.name == kind
     with pytest.raises(OptionError, match=r"Me & I\.png"):
-        session.garment_store.adopt_skin(upload(png_bytes(texels[:40])))
+        session.garment_store.adopt(upload(png_bytes(texels[:40])), "skin")

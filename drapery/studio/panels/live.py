@@ -1,6 +1,6 @@
 """The live banner or garment in the viewport, and below it the actions on it."""
 
-from functools import cache
+from functools import cache, partial
 
 from nicegui import run, ui
 
@@ -12,6 +12,8 @@ from drapery.studio.chosen_scene import what_follows
 from drapery.studio.components import ViewerElement
 from drapery.studio.descriptions import named, view_title
 from drapery.studio.file_field import FileField
+from drapery.studio.form_field import FormField
+from drapery.studio.garment_store import ENDINGS
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
 from drapery.studio.sketch import banner_of
@@ -35,6 +37,11 @@ SEEN = tuple(
     if not {"wind", "camera"}.isdisjoint(OPTIONS[name].affects)
 )
 """The options that begin anew with each garment."""
+WORN = {"garment": "Garment", "skin": "Skin"}
+OWN_FILES = {
+    "garment": "Drop a garment of your own here, or choose it (.toml)",
+    "skin": "Drop a skin here to see its player, or choose it (.png)",
+}
 ZONE = ".panel-live"
 """Where the files of garments and skins are dropped."""
 LATER = 1.5
@@ -65,25 +72,21 @@ def build(session: Session) -> None:
                 lambda: viewport.request.scene or "",
                 lambda name: show_scene(session, name or None),
             )
-            garments = fields.choice(
-                "Garment",
-                {"": NONE},
-                lambda: viewport.request.garment or "",
-                lambda name: wear(session, name or None, viewport.request.skin),
-            )
-            skins = fields.choice(
-                "Skin",
-                _skins(session),
-                lambda: viewport.request.skin or "",
-                lambda name: wear(session, viewport.request.garment, name or None),
-            )
+            lists = {
+                kind: fields.choice(
+                    label,
+                    {"": NONE} if kind == "garment" else _titles(session, kind),
+                    partial(lambda kind: viewport.request.shown.get(kind, ""), kind),
+                    partial(_put_on, session, kind),
+                )
+                for kind, label in WORN.items()
+            }
             follows = text_element("", "p").classes("hint").props("role=status")
         with ui.element("details").classes("advanced live-files"):
             translated_text("A garment or a skin of your own", "summary")
-            label = "Drop a garment of your own here, or choose it (.toml)"
-            FileField(session, "garment", label, lambda n: take(n), endings=".toml", zone=ZONE)
-            label = "Drop a skin here to see its player, or choose it (.png)"
-            FileField(session, "skin", label, lambda n: take_skin(n), endings=".png", zone=ZONE)
+            for kind, label in OWN_FILES.items():
+                taken = partial(_take, session, kind, lists[kind])
+                FileField(session, kind, label, taken, endings=ENDINGS[kind], zone=ZONE)
 
     def show() -> None:
         scene = viewport.request.scene
@@ -96,18 +99,6 @@ def build(session: Session) -> None:
     fields.on_refresh(show)
     session.follow(fields.refresh, "settings", "scene")
 
-    async def take(number: int) -> None:
-        path = await run.io_bound(session.garment_store.adopt, number)
-        if path is not None and not session.closed:
-            garments.set_choices(_garments(session))
-            wear(session, path, viewport.request.skin)
-
-    async def take_skin(number: int) -> None:
-        path = await run.io_bound(session.garment_store.adopt_skin, number)
-        if path is not None and not session.closed:
-            skins.set_choices(_skins(session))
-            wear(session, viewport.request.garment, path)
-
     async def list_scenes() -> None:
         # Listing the scenes imports them, so do it after the first picture.
         found = await run.io_bound(scene_summaries)
@@ -115,7 +106,8 @@ def build(session: Session) -> None:
         if found is not None and not session.closed:
             names = {name: named(name, summary) for name, summary in found.items()}
             scenes.set_choices({"": translated(OWN)} | names)
-            garments.set_choices(_garments(session))
+            for kind, listed in lists.items():
+                listed.set_choices(_titles(session, kind))
 
     ui.timer(LATER, list_scenes, once=True)
 
@@ -153,19 +145,26 @@ def _give_back(session: Session) -> None:
     session.adjust(**options)
 
 
-def _skins(session: Session) -> dict[str, str]:
-    """The skins of players, by name or path."""
-    own = session.garment_store
-    sent = {str(own.skin): own.names[str(own.skin)]} if own.skin else {}
-    return {"": translated(NONE)} | sent | {n: translated(n.capitalize()) for n in skin_names()}
+def _put_on(session: Session, kind: str, name: str | None) -> None:
+    """Show a garment or a skin with what else is worn; no name takes it off."""
+    request = session.viewport.request
+    wear(session, **{"garment": request.garment, "skin": request.skin, kind: name or None})
 
 
-def _garments(session: Session) -> dict[str, str]:
-    """What the viewer can show in place of the banner, by its name or path."""
-    own = session.garment_store
-    sent = {str(own.path): own.title} if own.path else {}
-    known = {name: named(name, each) for name, each in garment_descriptions().items()}
-    return {"": translated(NONE)} | sent | known
+async def _take(session: Session, kind: str, listed: FormField, number: int) -> None:
+    """Put on a garment or a skin that was sent."""
+    path = await run.io_bound(session.garment_store.adopt, number, kind)
+    if path is not None and not session.closed:
+        listed.set_choices(_titles(session, kind))
+        _put_on(session, kind, path)
+
+
+def _titles(session: Session, kind: str) -> dict[str, str]:
+    """The garments, or the skins of players, that can be shown, by name or path."""
+    known = {name: translated(name.capitalize()) for name in skin_names()}
+    if kind == "garment":
+        known = {name: named(name, each) for name, each in garment_descriptions().items()}
+    return {"": translated(NONE), **session.garment_store.titles(kind), **known}
 
 
 @cache

@@ -256,4 +256,4 @@ class _Comparison(Element):
         self._slider.show(*faces)
         for face, (pack, (design, patterns)) in zip(faces, self._sides.items(), strict=True):
             set_props(design, {"src": face})
-            set_props(patterns, {"src": sheet_address(session, dye, field, pack, rows=True)})
+            set_props(patterns, {"src": sheet_address(session, dye, field, pack)})
