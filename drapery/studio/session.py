@@ -132,7 +132,7 @@ class Session(Document):
         changes.
         """
         if not isinstance(words, dict) or not isinstance(words.get("shown", {}), dict):
-            raise DesignError("the page has sent no options; reload it")
+            raise DesignError("the page has sent no design; reload it")
         shown = {**words.get("shown", {})}
         options = {name: value for name, value in words.items() if name != "shown"}
         chosen = with_shared(self.settings, settings_of(options))
@@ -143,7 +143,7 @@ class Session(Document):
         known = {"scene": scene_names, "garment": garment_names, "skin": skin_names}
         for kind, name in shown.items():
             if kind not in known or name not in [*known[kind](), *own]:
-                raise DesignError("what was shown is not here any more; send its file again")
+                raise DesignError("the file is not here any more; send it again")
         self.adjust(**{name: chosen.as_given(name) for name in MOVED})
         self.viewport.banner_options = {name: before.as_given(name) for name in banner}
         self.viewport.update(**{kind: shown.get(kind) for kind in known})
