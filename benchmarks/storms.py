@@ -127,7 +127,7 @@ def _storm(subject: str, random: Random, largest: int) -> Storm:
     if subject == "garment":
         return Storm({"garment": random.choice(garment_names())}, options)
     if subject == "player":
-        wear = random.choice([name for name in garment_names() if find_garment(name).wearer])
+        wear = random.choice([name for name in garment_names() if _is_for_players(name)])
         speed = random.choice((0.5, 1.0, 3.0))
         motion = random.choice(MOTIONS)
         return Storm({"player": {"wear": (wear,), "motion": motion, "speed": speed}}, options)
@@ -144,6 +144,11 @@ def _storm(subject: str, random: Random, largest: int) -> Storm:
     if subject != "cape":
         options["placement"] = random.choice(("standing", "standing", "wall"))
     return Storm({}, options)
+
+
+def _is_for_players(name: str) -> bool:
+    who = find_garment(name).wearer
+    return who is not None and who.kind == "player"
 
 
 def measured(storm: Storm, seconds: float, *, crossings: bool) -> Measured:

@@ -73,6 +73,12 @@ def dressed_player(
     """
     texture = _texture_behind(cape, elytra, profile_of(wearer.skin, folder))
     worn = [each if isinstance(each, Garment) else find_garment(each) for each in wear]
+    for each in worn:
+        if each.wearer is not None and each.wearer.kind != wearer.kind:
+            raise OptionError(
+                f"garment {each.name} is for a {each.wearer.kind}, not for a {wearer.kind}; "
+                "wear another one, such as coat"
+            )
     behind = []
     if elytra:
         wings = find_garment("elytra")

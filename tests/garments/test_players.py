@@ -218,6 +218,12 @@ def test_what_is_worn_is_cloth_of_its_own() -> None:
     assert all(piece.texture is not None and piece.texture.front for piece in wings)
 
 
+def test_what_is_for_a_horse_is_refused() -> None:
+    """A player whom it covered was torn cloth from the first step."""
+    with pytest.raises(OptionError, match="garment caparison is for a horse, not for a player; "):
+        dressed_player(make_wearer(), wear=("coat", "caparison"))
+
+
 def test_what_hangs_behind_a_player_is_seen() -> None:
     """A player from the front hides its cape."""
     behind = ({"wear": ("cape",)}, {"cape": "cape.png"}, {"elytra": True})
