@@ -25,6 +25,7 @@ from drapery.errors import BackendError, OutputError
 pytestmark = pytest.mark.usefixtures("untraced_processes")
 
 
+@pytest.mark.slow
 def test_a_cluster_draws_the_same_and_survives_a_killed_worker(tmp_path: Path) -> None:
     code_version.cache_clear()
     make_pack(tmp_path / "pack")

@@ -68,6 +68,7 @@ def test_a_batch_draws_what_draw_draws_and_draws_it_once(drapery: Run, tmp_path:
 
 
 @pytest.mark.usefixtures("untraced_processes")
+@pytest.mark.slow
 def test_a_run_killed_at_ten_random_moments_ends_as_one_undisturbed(
     drapery: Run, tmp_path: Path
 ) -> None:
@@ -241,6 +242,7 @@ mount -o remount,size=64m out
 """
 
 
+@pytest.mark.slow
 def test_a_disk_that_fills_fails_jobs_with_reasons_and_the_next_run_makes_them(
     tmp_path: Path,
 ) -> None:

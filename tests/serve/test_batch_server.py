@@ -28,6 +28,7 @@ def get(url: str, timeout: float = 30, **more: Any) -> httpx.Response:
 
 
 @pytest.mark.usefixtures("untraced_processes")
+@pytest.mark.slow
 def test_a_service_whose_workers_die_says_so_recovers_and_ends() -> None:
     with service("--deadline", "3", "--rate", "0") as (base, process):
         # The first picture of a worker loads the kernels.

@@ -133,6 +133,7 @@ class ServeMachine(RuleBasedStateMachine):
 # The pack has one pattern only, which each picture says that is drawn here to compare.
 @pytest.mark.filterwarnings("ignore:not in .*, taken from our own art")
 @pytest.mark.filterwarnings("ignore:no texture comes from")
+@pytest.mark.slow
 def test_every_answer_is_right_or_states_its_reason() -> None:
     draw(Banner("red"), **OPTIONS)  # the worker finds the kernels in the cache
     with tempfile.TemporaryDirectory() as folder:

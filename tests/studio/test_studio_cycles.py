@@ -53,6 +53,7 @@ def own_studio(tmp_path: Path, compiled_kernels: None) -> Iterator[Studio]:
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs Linux's /proc to count")
+@pytest.mark.slow
 def test_tabs_leave_nothing(own_studio: Studio) -> None:
     studio = own_studio
 
