@@ -120,7 +120,7 @@ def made(subject: Any, output: Output, folder: Path, options: dict[str, Any]) ->
     if output == "still":
         return draw(subject, **options).pixels.tobytes()
     if output == "loop":
-        frames = animate(subject, seconds=0.2, fps=10, **options).frames
+        frames = animate(subject, seconds=0.3, fps=10, **options).frames
         return b"".join(frame.pixels.tobytes() for frame in frames)
     save_model(subject, folder / "x.glb", seconds=0, **options)
     return (folder / "x.glb").read_bytes()
