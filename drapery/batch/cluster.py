@@ -212,9 +212,14 @@ def local_cluster(workers: int, store: Store, limits: JobLimits) -> DaskExecutor
 def connect(address: str, store: Store, limits: JobLimits) -> DaskExecutor:
     """The cluster of a scheduler. Raises BackendError if there is no scheduler."""
     distributed = _distributed()
+    client = distributed.Client.__new__(distributed.Client)
     try:
-        return DaskExecutor(distributed.Client(address, timeout=15), store, limits)
+        client.__init__(address, timeout=15)
+        return DaskExecutor(client, store, limits)
     except Exception as error:
+        # A client that did not start closes itself as garbage, at any moment: while the next one
+        # starts, that waits for ever for the lock that the start holds.
+        client.__del__()
         # Dask's protocols raise different errors: TypeError for tls:// without certificates.
         name = type(error).__name__
         raise BackendError(f"no scheduler at {address} ({name}); check the address") from None

@@ -1,11 +1,13 @@
 """The same jobs by a cluster of real processes, which may be killed."""
 
+import gc
 import os
 import warnings
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
+import distributed
 import fsspec
 import psutil
 import pytest
@@ -70,6 +72,14 @@ def test_an_address_without_a_scheduler_is_an_error() -> None:
         with pytest.raises(BackendError, match="no scheduler at") as caught:
             cluster.connect(address, RemoteStore("memory://x"), JobLimits())
         assert "\n" not in str(caught.value)
+
+
+def test_a_client_that_found_no_scheduler_is_closed_at_once() -> None:
+    """One that closed itself while the next one started waited for ever."""
+    with pytest.raises(BackendError):
+        cluster.connect("nothing://x", RemoteStore("memory://x"), JobLimits())
+    clients = [each for each in gc.get_objects() if isinstance(each, distributed.Client)]
+    assert {each.status for each in clients} <= {"closed", "newly-created"}
 
 
 def test_a_worker_of_another_version_refuses() -> None:
