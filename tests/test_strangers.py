@@ -172,7 +172,7 @@ def test_a_garment_that_is_sent_names_no_file_of_the_studio(
             number = send(session, toml(tree))
             with nothing_outside_is_opened():
                 try:
-                    path = session.garment_store.adopt(number)
+                    path = session.garment_store.adopt(number, "garment")
                 except DraperyError as error:
                     assert "\n" not in str(error) and len(str(error)) < 1000
                     continue
@@ -187,9 +187,9 @@ def test_a_garment_that_is_sent_names_no_file_of_the_studio(
 def test_a_sent_garment_may_say_how_its_picture_looks_with_styles_by_name() -> None:
     session = Session()
     tree = {"piece": [PIECE], "picture": {"wind": 3, "style": ["pixel-art"], "view": "iso"}}
-    path = session.garment_store.adopt(send(session, toml(tree)))
+    path = session.garment_store.adopt(send(session, toml(tree)), "garment")
     assert find_garment(path).picture["wind"] == 3
     named = {"piece": [PIECE], "picture": {"packs": ["/any"], "style": ["/any/x.toml"]}}
     with pytest.raises(OptionError, match="garment a names '/any', which was not sent; leave it"):
-        session.garment_store.adopt(send(session, toml(named)))
+        session.garment_store.adopt(send(session, toml(named)), "garment")
     session.close()

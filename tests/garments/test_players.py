@@ -144,7 +144,8 @@ def test_a_still_asks_for_poses_in_blocks_not_step_by_step() -> None:
 
     dressed.__dict__["wearer"] = replace(dressed.wearer, poses=BonePoses(poses.bones, counted))
     dressed.record(Schedule.still(0.5, 1 / 120))
-    assert len(asked) == 2 and min(asked) > 60  # the pins at all substeps, the boxes at all steps
+    # Pins over which limbs may sweep, the pins at all substeps, the boxes at all steps.
+    assert len(asked) == 3 and min(asked) > 60
 
 
 @pytest.mark.parametrize("name", [n for n in motion_names() if n != "walk"])
