@@ -68,7 +68,14 @@ def test_the_programs_of_the_readme_and_of_the_first_page_run(reader: Reader) ->
                 reader.type(page, block)
 
 
-@pytest.mark.parametrize("page", [*GUIDES, LAYERING], ids=lambda page: page.stem)
+TYPED = [
+    pytest.param(page, id=page.stem, marks=[pytest.mark.slow] if page.stem == "players" else [])
+    for page in (*GUIDES, LAYERING)
+]
+"""The page of players draws seven films."""
+
+
+@pytest.mark.parametrize("page", TYPED)
 def test_a_page_runs_as_it_is_typed(page: Path, reader: Reader) -> None:
     """Its reader has the pack of the tutorial, and the files that the page names."""
     (make_pack,) = (block for block in blocks(TUTORIAL) if block.title == "make_pack.py")

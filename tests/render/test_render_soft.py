@@ -254,6 +254,7 @@ def test_nothing_at_all() -> None:
     assert not draw_scene(Scene((Model(empty, (RED,)),), FACING, (3, 2))).pixels.any()
 
 
+@pytest.mark.slow
 def test_many_frames_keep_the_memory_flat() -> None:
     """Changing meshes, looks and sizes: nothing is kept but the last few preparations."""
 
