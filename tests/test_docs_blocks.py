@@ -68,11 +68,12 @@ def test_the_programs_of_the_readme_and_of_the_first_page_run(reader: Reader) ->
                 reader.type(page, block)
 
 
+LONG = ("players", "wikis-and-bots", "photos", "match")
+"""Pages of many films, icons and photos."""
 TYPED = [
-    pytest.param(page, id=page.stem, marks=[pytest.mark.slow] if page.stem == "players" else [])
+    pytest.param(page, id=page.stem, marks=[pytest.mark.slow] if page.stem in LONG else [])
     for page in (*GUIDES, LAYERING)
 ]
-"""The page of players draws seven films."""
 
 
 @pytest.mark.parametrize("page", TYPED)

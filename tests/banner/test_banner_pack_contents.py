@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from pack_maker import (
     BANNER,
     CREEPER,
@@ -75,6 +76,7 @@ print(time.process_time() - start, peak / 1024)
 """The peak is 0 where the system does not say it: `resource` counts the parent's memory too."""
 
 
+@pytest.mark.slow
 def test_a_report_on_gigabytes_of_texels_takes_bounded_memory_and_time(
     tmp_path: Path, untraced_processes: None
 ) -> None:

@@ -76,6 +76,7 @@ def test_an_animated_mask_is_combined_with_the_base_one_frame_at_a_time(tmp_path
     assert len(first) == 23 * 64 and (first != second).any()
 
 
+@pytest.mark.slow
 def test_sixteen_layers_of_the_largest_size(tmp_path: Path) -> None:
     names = PATTERN_NAMES[1:17]
     sheets = dict.fromkeys((BANNER + f"{name}.png" for name in names), LARGEST)
@@ -84,6 +85,7 @@ def test_sixteen_layers_of_the_largest_size(tmp_path: Path) -> None:
     assert peak(lambda: composite(flag_layers(banner, packs))) < 500
 
 
+@pytest.mark.slow
 def test_decoded_textures_are_dropped_when_there_are_too_many(tmp_path: Path) -> None:
     names = PATTERN_NAMES
     sheets = dict.fromkeys((BANNER + f"{name}.png" for name in names), LARGEST)

@@ -148,6 +148,7 @@ def test_bricks_are_aligned_though_they_repeat(
     assert np.abs(seen - wanted).reshape(40, -1)[:34].mean() < 1
 
 
+@pytest.mark.slow
 def test_the_same_photo_gives_the_same_designs() -> None:
     picture = photo(Banner.parse("red cross:white"))
     found = [match_photo(picture, layers=1) for _ in range(2)]

@@ -78,11 +78,13 @@ def results(folder: object, **variables: str) -> dict[str, str]:
 
 
 @pytest.mark.parametrize("kernels", ["Nehalem", "Prescott"])
+@pytest.mark.slow
 def test_the_blas_reaches_no_result(tmp_path: object, kernels: str, usual: dict[str, str]) -> None:
     assert len(usual) == 11
     assert results(tmp_path, OPENBLAS_CORETYPE=kernels) == usual
 
 
+@pytest.mark.slow
 def test_the_instructions_of_the_processor_reach_no_result(
     tmp_path: object, usual: dict[str, str]
 ) -> None:

@@ -72,6 +72,7 @@ def test_sigterm_ends_a_service_whose_workers_die_and_whose_clients_wait() -> No
                 client.close()
 
 
+@pytest.mark.slow
 def test_sigterm_ends_a_service_in_work_and_leaves_no_process() -> None:
     with service("--rate", "0") as (base, process):
         get(f"{base}/banner.png?{SMALL}")

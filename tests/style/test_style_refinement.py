@@ -94,7 +94,7 @@ def test_cloth_with_cells_cut_out_has_no_curves() -> None:
         cover_curves(cut, (3, 3), rolled(3, 3), rolled(3, 3), 0.1)
 
 
-@pytest.mark.parametrize("kind", ["banner", "cape"])
+@pytest.mark.parametrize("kind", ["banner", pytest.param("cape", marks=pytest.mark.slow)])
 def test_all_sizes_show_the_same_cloth(kind: str, tmp_path: Path) -> None:
     design = BANNER if kind == "banner" else None
     settings = Settings(kind=kind, wind=9.0)

@@ -140,6 +140,7 @@ def test_files_of_others_and_of_tests_that_did_not_run_are_kept(
     assert kept == ["a[1].png", "creeper.png", "readme.png", "test_one[1].png", "test_two[1].png"]
 
 
+@pytest.mark.slow
 def test_workers_send_what_they_named(pytester: pytest.Pytester, project: Project) -> None:
     project("--drapery-update", MANY)
     before = goldens(pytester)

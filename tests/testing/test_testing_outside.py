@@ -108,6 +108,7 @@ HARMS: dict[str, tuple[bytes | str | tuple[int, int], str]] = {
 }
 
 
+@pytest.mark.slow
 def test_harmed_and_unused_goldens_are_named_by_workers_in_one_report(
     outside: tuple[Path, Pytest],
 ) -> None:
