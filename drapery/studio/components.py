@@ -51,6 +51,7 @@ class DesignerElement(Element, component="designer.js"):
         }
         session.follow(lambda: set_props(self, {"faces": face_files(session)}), "packs")
         self._session, self._due, self._answers = session, set[str](), False
+        self._shown = session.motion.get("shown")
         events: tuple[Event, ...] = "laid", "settings", "scene"
         for event in events:
             session.listen(partial(self._tell_soon, event), event)
@@ -69,6 +70,8 @@ class DesignerElement(Element, component="designer.js"):
 
     def _tell_soon(self, event: Event) -> None:
         """Tell the editor once of all that changes together, which is one step of its history."""
+        if event == "scene" and self._session.motion.get("shown") == self._shown:
+            return  # of what is seen, only the look is another one
         if not self._due and core.loop is not None:
             core.loop.call_soon_threadsafe(self._tell)
         self._due.add("answer" if self._answers else event)
@@ -78,6 +81,7 @@ class DesignerElement(Element, component="designer.js"):
         session = self._session
         if not session.closed:
             design = editor_tree(session.sketch) if "laid" in due else None
+            self._shown = session.motion.get("shown")
             self.run_method("lay", design, session.motion, due == {"answer"})
 
 

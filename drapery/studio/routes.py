@@ -145,6 +145,8 @@ def _add_live(
             kind = format_of(f"{key}.{ending}", "still", "loop").media_type
             data = session.viewport.picture(key)
         except DraperyError as error:
+            if not session.viewport.shows(key):  # another picture took its place meanwhile
+                return Response(status_code=204)
             return _not_shown(session, error)
         return Response(data, media_type=kind, headers={"Cache-Control": CACHING})
 
