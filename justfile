@@ -13,7 +13,7 @@ install:
 quick:
     pytest -m quick
 
-# Run all tests but those in a browser, or those of a file
+# Run all tests but those in a browser and slow ones, or those of a file
 test *words:
     pytest {{words}}
 
@@ -42,6 +42,6 @@ site:
 pages:
     python -m drapery.web.wasm.build
 
-# Run the gate: all tests but those in a browser, the linters and mypy, in a fresh environment
+# Run the gate: all tests but those in a browser and slow ones, the linters and mypy, in a fresh environment
 gate:
     .ci/run

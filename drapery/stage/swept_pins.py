@@ -2,9 +2,9 @@
 
 The pins of a garment follow one bone, and other bones stop its cloth. Where a raised arm turns into
 the collar that the body holds, contact moves the particles beside a pin out of the arm and the pin
-stays in it: cloth between them was torn to twelve times its length. Such a pin holds nothing, and
-the limb pushes its particle as any other. What stays in a limb, as the waist of a skirt on a seated
-wearer, is held, as are pins beside which nothing is free to move.
+stays in it, which tears the cloth between them. So such a pin holds nothing, and the limb pushes
+its particle as any other. What stays in a limb, as the waist of a skirt on a seated wearer, is
+held, as are pins beside which nothing is free to move.
 """
 
 import numpy as np
