@@ -1,7 +1,7 @@
 """The page: the place of each panel. A new panel needs a file in `panels/` and a line in PANELS."""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from html import escape
 from importlib import import_module
@@ -86,9 +86,28 @@ def add_page(sessions: Sessions) -> None:
         settings, sketch, fault = opened(sessions.config.settings, client.request)
         session = sessions.open(settings, sketch)
         client.on_delete(lambda: sessions.keep(session))
+        client.on_connect(send_current_states)
         build(session, sessions)
         if fault:
             ui.timer(0.5, lambda: show_notice(fault, "fault"), once=True)
+
+
+def send_current_states(client: Client) -> Coroutine[Any, Any, None]:
+    """Send again the elements of which a page has missed something, after all that it has missed.
+
+    After a reconnection NiceGUI sends new states first and then the missed ones, which would stay.
+    """
+    outbox = client.outbox
+    updates = [data for _, kind, data in outbox.messages if kind == "update"]
+    missed = {identity for data in updates for identity in data}
+
+    async def send() -> None:
+        while outbox.messages and not client.is_deleted:
+            await asyncio.sleep(0.02)
+        for identity in missed & client.elements.keys():
+            client.elements[identity].update()
+
+    return send()
 
 
 def opened(base: Settings, request: Request | None) -> tuple[Settings, Sketch | None, str]:
