@@ -3,6 +3,7 @@
 import gzip
 import json
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import product
 from pathlib import Path
 
 from drapery.banner import Banner, game_titles
@@ -11,6 +12,10 @@ from drapery.settings import Settings
 from drapery.web.bundle import DESIGNER_ENTRY, DESIGNER_PUBLIC, WEB, beside, bundled_module
 from drapery.web.page import (
     ARMS,
+    FROM_BEHIND,
+    FROM_FRONT,
+    FROM_LEFT,
+    SHIELD,
     banner_files,
     check_package,
     kernel_file,
@@ -19,13 +24,15 @@ from drapery.web.page import (
     write_files,
 )
 from drapery.web.pattern_words import search_words
-from drapery.web.scene_file import scene_bytes
+from drapery.web.scene_file import scene_bytes, still_player_bytes
 from drapery.web.tables import languages
 
 MODULE = "drapery-designer.js"
 TYPES = "drapery-designer.d.ts"
 BANNER_TYPES = "drapery-banner.d.ts"
 PAGE = "index.html"
+WORN_AS = {"cape": FROM_BEHIND, "tabard": FROM_FRONT, SHIELD: FROM_LEFT}
+"""How a player in a skin of the user's has the design, and how far it is turned."""
 
 
 def write_designer(folder: Path, settings: Settings) -> None:
@@ -46,12 +53,16 @@ def _files(settings: Settings) -> Iterator[tuple[str, bytes]]:
 
 
 def wearers(packs: Packs, settings: Settings) -> Iterator[tuple[str, bytes]]:
-    """The names and contents of scenes of a player with both arms, whose skin and cape the
-    designer replaces. It loads one of them once a skin is dropped."""
-    for arms in ARMS:
-        player = posed_player("cape", "stand", arms, overlay="whole").with_design(Banner())
-        seen = seen_settings(player, settings)
-        yield f"wearer{'-slim' if arms == 'slim' else ''}.bin", scene_bytes(player, packs, seen)
+    """The names and contents of scenes of a player with both arms and each of WORN_AS, whose skin
+    and design the designer replaces. It loads one of them once a skin is dropped."""
+    for (worn, rotation), arms in product(WORN_AS.items(), ARMS):
+        player = posed_player(worn, "stand", arms, overlay="whole")
+        seen = seen_settings(player, settings, rotation=rotation)
+        name = f"wearer-{worn}{'-slim' if arms == 'slim' else ''}.bin"
+        if worn == SHIELD:
+            yield name, still_player_bytes(player, packs, seen)
+        else:
+            yield name, scene_bytes(player.with_design(Banner()), packs, seen)
 
 
 def designer_files(scenes: Mapping[str, bytes]) -> dict[str, bytes]:

@@ -40,6 +40,10 @@ SIZE = (320, 480)
 """Width and height of what the camera of a player frames [pixels]."""
 FROM_BEHIND = 7
 """How players are turned, in sixteenths of a turn: cloth on their backs is seen."""
+FROM_FRONT = 15
+"""The same: cloth on the chest is seen."""
+FROM_LEFT = 1
+"""The same: a shield in the left hand is seen."""
 
 
 @dataclass(frozen=True)
@@ -186,16 +190,19 @@ def banner_files(packs: Packs, settings: Settings) -> Iterator[tuple[str, bytes]
 def posed_player(
     worn: str, pose: str, arms: Arms = "classic", overlay: Literal["flat", "whole"] = "flat"
 ) -> Garment:
-    """A player in one of POSES with a garment on its back."""
-    wearer = make_wearer(motion=pose, speed=POSES[pose], arms=arms)
+    """A player in one of POSES with a garment, or with a shield in its hand."""
+    shield = Banner(kind=SHIELD) if worn == SHIELD else None
+    wearer = make_wearer(motion=pose, speed=POSES[pose], arms=arms, shield=shield)
     shown = wearer.model_copy(update={"overlay": overlay})
-    return dressed_player(shown, wear=[find_garment(worn)])
+    return dressed_player(shown, wear=[] if shield else [find_garment(worn)])
 
 
-def seen_settings(garment: Garment, settings: Settings, size: tuple[int, int] = SIZE) -> Settings:
-    """What a user chose for banners, for a garment that is seen from behind; else its own."""
+def seen_settings(
+    garment: Garment, settings: Settings, size: tuple[int, int] = SIZE, rotation: int = FROM_BEHIND
+) -> Settings:
+    """What a user chose for banners, for a garment that is turned so far; else its own."""
     kept = {n: v for n, v in settings.given_values.items() if n in applicable(Subject("garment"))}
-    return garment.settings(**{**kept, "size": size, "rotation": FROM_BEHIND})
+    return garment.settings(**{**kept, "size": size, "rotation": rotation})
 
 
 def _base64(data: bytes) -> str:

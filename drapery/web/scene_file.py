@@ -51,6 +51,7 @@ from drapery.scenes import (
 from drapery.settings import FabricName, Settings, settled
 from drapery.style import Body, MaterialAt, body_of
 from drapery.styles import Style
+from drapery.web.face_file import UNITS
 from drapery.web.messages import pack, scene_message, unpack
 from drapery.web.wasm.module import module_info, read_module
 from drapery.web.wasm.plan import LANES, kernels_of, plans_of, write_plan
@@ -80,11 +81,19 @@ def scene_bytes(
     WasmBuildError where the kernels of the cloth are not built.
     """
     if isinstance(subject, Garment):
-        scene, played = _garment_scene(subject, packs, settings)
-    else:
-        scene, played, _ = _body_scene(subject, packs, settings, patterns)
-        scene[0]["noPicture"] = NO_PICTURE
+        worn = repeating_garment(subject, packs, _settled(subject, settings))
+        return _packed(_worn_scene(worn), plans_of(played_garment(worn)))
+    scene, played, _ = _body_scene(subject, packs, settings, patterns)
+    scene[0]["noPicture"] = NO_PICTURE
     return _packed(scene, plans_of(played))
+
+
+def still_player_bytes(player: Garment, packs: Packs, settings: Settings) -> bytes:
+    """The file of a player without cloth, who stands still and may hold a shield.
+
+    Raises OptionError for what a page cannot show, and PackError for textures that cannot be used.
+    """
+    return _packed(_worn_scene(Dressed(player, packs, _settled(player, settings))), ())
 
 
 def pictured_scene(
@@ -160,38 +169,55 @@ def _body_scene(
     return scene, played_body(body, settings), shown
 
 
-def _garment_scene(
-    garment: Garment, packs: Packs, settings: Settings
-) -> tuple[_Message, PlayedSubject]:
+def _settled(garment: Garment, settings: Settings) -> Settings:
+    """The settings of a garment's scene. Raises OptionError for what a page cannot show."""
     settings = settled(settings, Subject("garment"), own=garment.picture)
     staging = Staging(settings)
     _check(staging.settings, staging.style, True)
-    worn = repeating_garment(garment, packs, settings)
+    return settings
+
+
+def _worn_scene(worn: Dressed) -> _Message:
+    staging = Staging(worn.settings)
     first, cloths = first_scene(worn), len(worn.cloths)
     last, figures = len(first.models) - cloths, len(worn.figures())
     grip = range(last, len(first.models))
     scene = _first_message(first, grip, staging.settings)
-    header, arrays = scene
+    header, _ = scene
     header.update(sheets=None, turned=staging.settings.turned)
     header["views"] = {name: astuple(_seen(worn, name)) for name in VIEWS}
     header["daylights"] = _tints(staging.settings, Staging)
     header["noPicture"] = "pictures of players and garments need Python"
     if figures:
-        runs = header["runs"][last - figures : last]
-        header["moving"].append(
-            [0, runs[0][0], sum(count for _, count in runs), "figure", "figureLight"]
-        )
-        shown = arrays["materials"].reshape(-1, 4)[arrays["vertexMaterials"], :2].tolist()
-        layers = [range(first, first + count) for first, count in shown]
-        skin, cape = texture_areas(worn)
-        header["textures"] = {
-            "skin": {"shown": [*layers[runs[0][0]]], "area": skin},
-            "cape": {
-                "shown": [n for start, _ in header["grip"] for n in layers[start]],
-                "area": cape,
-            },
-        }
-    return scene, played_garment(worn)
+        _add_figures(scene, figures, worn)
+    return scene
+
+
+def _add_figures(scene: _Message, count: int, worn: Dressed) -> None:
+    """Say which vertices the wearer has, and what shows a texture.
+
+    count: of its models, which come directly before those of the cloths; the first one is its body.
+    """
+    header, arrays = scene
+    cloths = len(worn.cloths)
+    last = len(header["runs"]) - cloths
+    runs = header["runs"][last - count : last]
+    if cloths:
+        size = sum(vertices for _, vertices in runs)
+        header["moving"].append([0, runs[0][0], size, "figure", "figureLight"])
+    materials = arrays["materials"].reshape(-1, 4)[arrays["vertexMaterials"], :2].tolist()
+
+    def layers(start: int) -> range:
+        first, size = materials[start]
+        return range(first, first + size)
+
+    whole = [0, 0, UNITS, UNITS]
+    header["textures"] = {"skin": {"shown": [*layers(runs[0][0])], "area": whole}}
+    if cloths:
+        shown = [layer for start, _ in header["grip"] for layer in layers(start)]
+        header["textures"]["cape"] = {"shown": shown, "area": texture_areas(worn)[1]}
+    elif count > 1:  # the plate of a shield, whose last layer lies on the front
+        header["textures"]["shield"] = {"shown": [layers(runs[1][0])[-1]], "area": whole}
 
 
 def _first_message(scene: Scene, cloths: range, settings: Settings) -> _Message:

@@ -477,20 +477,72 @@ def test_a_dropped_skin_shows_a_player_with_the_design_as_its_cape(
     drop("small.png", sheet(40, 0, 0, 255, 255))
     wait_until(lambda: told().startswith("small.png is 40 x 40 px; use 64 x 64"))
     assert run(chromium, f"{shown}.localName") == "drapery-banner"
-    assert "wearer.bin" not in run(chromium, loaded)
+    assert "wearer-cape.bin" not in run(chromium, loaded)
     drop("me.png", sheet(64, 0, 0, 255, 255))
-    wait_until(lambda: told() == "me.png: a player wears the design as a cape.")
+    wait_until(lambda: told() == "me.png: a player has the design.")
     assert run(chromium, f"{shown}.localName") == "drapery-wearer"
     wait_until(lambda: middle()[0] > 100 > 2 * middle()[1])
     hidden = f"[...{ROOT}.querySelectorAll('.motion [hidden]')].filter((e) => !e.matches('.fault'))"
     assert run(chromium, f"{hidden}.length") == 3, "fabric, placement, view"
-    assert "wearer.bin" in run(chromium, loaded)
+    assert "wearer-cape.bin" in run(chromium, loaded)
     press(chromium, '[data-dye="lime"]')
     press(chromium, '[data-pattern="base"]')
     wait_until(lambda: middle()[1] > 120 > middle()[0])
     press(chromium, ".bare")
     assert run(chromium, f"{shown}.localName") == "drapery-banner"
     assert told() == ""
+
+
+SHARES = """
+const [root, done] = arguments;
+(async () => {
+  const image = await createImageBitmap(await root.querySelector(".sky > :first-child").snapshot());
+  const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+  context.drawImage(image, 0, 0);
+  const { data } = context.getImageData(0, 0, image.width, image.height);
+  const shares = [0, 0];
+  for (let at = 0; at < data.length; at += 4) {
+    const [red, green, blue] = data.subarray(at, at + 3);
+    if (Math.max(red, green) < 90 || blue > Math.max(red, green) / 2) continue;
+    if (red > 2 * green) shares[0] += 4 / data.length;
+    else if (green > 1.4 * red) shares[1] += 4 / data.length;
+  }
+  done(shares);
+})();
+"""
+
+
+@pytest.mark.parametrize("garment", ["tabard", "shield"])
+def test_the_player_of_a_skin_has_the_design_as_tabard_or_shield_too(
+    chromium: Any, site: str, garment: str
+) -> None:
+    open_designer(chromium, f"{site}/#red,square_top_left:red")
+    root, shown = run(chromium, ROOT), f"{ROOT}.querySelector('.sky').firstChild"
+
+    def shares() -> list[float]:
+        """Of the picture, what is red and what is lime."""
+        found: list[float] = chromium.execute_async_script(SHARES, root)
+        return found
+
+    choice = f".stage .segments [data-value={garment}]"
+    assert not run(chromium, f"{ROOT}.querySelector('{choice}').checkVisibility()")
+    skin = base64.b64encode(sheet(64, 0, 0, 255, 255)).decode()
+    chromium.execute_script(DROPPED, root, "me.png", skin)
+    wait_until(lambda: run(chromium, f"{shown}.localName") == "drapery-wearer")
+    wait_until(lambda: run(chromium, f"!{shown}.shadowRoot.querySelector('canvas').hidden"))
+    press(chromium, choice)
+    loaded = "performance.getEntriesByType('resource').map((each) => each.name.split('/').at(-1))"
+    wait_until(lambda: f"wearer-{garment}.bin" in run(chromium, loaded))
+    assert "wearer-cape.bin" in run(chromium, loaded)
+    wait_until(lambda: run(chromium, f"{ROOT}.querySelector('{choice}').ariaPressed") == "true")
+    assert design(chromium).startswith("shield ") == (garment == "shield")
+    wait_until(lambda: shares()[0] > 0.04)
+    grass = shares()[1]
+    press(chromium, '[data-dye="lime"]')
+    press(chromium, '[data-pattern="base"]')
+    wait_until(lambda: shares()[0] < 0.01 and shares()[1] > grass + 0.04)
+    press(chromium, ".stage .segments [data-value=cape]")
+    assert not design(chromium).startswith("shield ")
 
 
 SILHOUETTE = """

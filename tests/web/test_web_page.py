@@ -156,7 +156,8 @@ def test_a_package_names_its_files(
     parts = "", "-still", "-fabrics"
     scenes = {f"{name}{part}.bin" for name in page.PLACEMENTS for part in parts}
     words = {f"{code}.bin" for code in languages() if code != "en"} | {"words.bin"}
-    wearers = {"wearer.bin", "wearer-slim.bin"}  # of the designer
+    worn_as = "cape", "tabard", "shield"  # of the designer
+    wearers = {f"wearer-{worn}{arms}.bin" for worn in worn_as for arms in ("", "-slim")}
     assert files == scenes | players | wearers | words | {"cloth.bin", "shield.bin"}
     assert set(made) == files | named | {"README.md", "package.json"}
     for module in ("drapery-banner.js", "drapery-designer.js"):

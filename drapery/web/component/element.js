@@ -260,7 +260,7 @@ export class DraperyBanner extends Element {
   // The wind blows to the viewer, and to the side on which the mouse is.
   #follow(x, player) {
     const side = (2 * x) / this.#canvas.clientWidth - 1;
-    const ahead = player.header.textures ? player.cloths[0].info.heading : player.azimuth() + player.header.turned;
+    const ahead = (player.header.textures && player.cloths[0]?.info.heading) ?? player.azimuth() + player.header.turned;
     this.#blow(player, ahead + FOLLOW * side);
   }
 }

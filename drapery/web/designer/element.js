@@ -7,7 +7,7 @@ import { Element, define } from "../component/places.js";
 import { fileBytes } from "../component/shared.js";
 import { TABLES } from "../component/tables.js";
 import { FormError, VERSIONS, notKept, plainText, writeCommand } from "./commands.js";
-import { menu, numberField } from "./controls.js";
+import { menu, numberField, segments } from "./controls.js";
 import { drawPixels, icon, kept, make } from "./dom.js";
 import { ENGLISH, Editor } from "./editor.js";
 import { Faces } from "./faces.js";
@@ -16,7 +16,7 @@ import { MOTION, History, shownOf, workOf, writeHash, writeShorthand } from "./m
 import { readPack } from "./pack.js";
 import { readHash, readPasted } from "./pasted.js";
 import { LANGUAGES, STYLES } from "./tables.js";
-import { DraperyWearer, capeOf, readSkin } from "./wearer.js";
+import { DraperyWearer, readSkin, sheetWith } from "./wearer.js";
 
 const START = "yellow gradient:red gradient_up:magenta flower:white circle:orange curly_border:red";
 const VIEWS = ["front", "back", "iso", "hero"];
@@ -53,7 +53,9 @@ export class DraperyDesigner extends Element {
   #pack = null;
   /** @type {ImageData | null} */
   #skin = null; // of the player that wears the design
-  #worn = ""; // the design that it wears
+  #cloth = "cape"; // or tabard, as which it wears that of a banner
+  /** @type {any[]} */
+  #worn = []; // the design that it wears, its faces, and as what
   /** @type {Record<string, any>} */
   #ui = {};
   #built = false;
@@ -121,13 +123,13 @@ export class DraperyDesigner extends Element {
   }
 
   // Do what may fail by what a page or a user says; one line tells it.
-  #try(/** @type {() => void} */ act) {
+  async #try(/** @type {() => unknown} */ act) {
     try {
-      act();
+      await act();
     } catch (error) {
-      if (!(error instanceof Error)) throw error;
-      this.dispatchEvent(new CustomEvent("drapery-error", { detail: `drapery: ${error.message}`, bubbles: true }));
-      this.#editor.tell(error.message);
+      const message = /** @type {Error} */ (error).message.replace(/^drapery: /, "");
+      this.dispatchEvent(new CustomEvent("drapery-error", { detail: `drapery: ${message}`, bubbles: true }));
+      this.#editor.tell(message);
     }
   }
 
@@ -212,7 +214,7 @@ export class DraperyDesigner extends Element {
   #stage() {
     const { say } = this.#editor;
     const banner = this.#skin ? new DraperyWearer() : new DraperyBanner();
-    banner.pack = this.#skin ? { skin: this.#skin, cape: this.#cape() } : this.#pack;
+    banner.pack = this.#skin ? this.#dressed() : this.#pack;
     banner.append(this.#editor.parts.flat);
     const fault = make("p", { class: "fault", role: "alert", hidden: true });
     banner.addEventListener("drapery-error", (event) => {
@@ -232,9 +234,10 @@ export class DraperyDesigner extends Element {
     const numbers = { wind: number("wind", say("unitSpeed")), direction: number("direction", say("unitDegrees")), daylight: number("daylight", "", 0.05) };
     const menus = { placement: among("placement", TABLES.placements), fabric: among("fabric", TABLES.fabrics), view: among("view", VIEWS) };
     const [fields, choices] = [numbers, menus].map((each) => Object.values(each).map(({ whole }) => whole));
+    const garments = segments(say("wornAs"), { cape: say("cape"), tabard: say("tabard"), shield: say("shield") }, (name) => this.#hold(name));
     const sky = make("div", { class: "sky" }, banner, pause);
-    Object.assign(this.#ui, { banner, fault, pause, sky, motion: { ...numbers, ...menus } });
-    return make("section", { class: "stage", "aria-label": say("stage") }, sky, fault,
+    Object.assign(this.#ui, { banner, fault, pause, sky, garments, motion: { ...numbers, ...menus } });
+    return make("section", { class: "stage", "aria-label": say("stage") }, sky, garments.whole, fault,
       make("details", { class: "motion", open: this.clientWidth > NARROW }, make("summary", {}, say("motion")), ...fields, make("div", { class: "menus" }, ...choices)));
   }
 
@@ -248,7 +251,7 @@ export class DraperyDesigner extends Element {
     const about = make("p", { class: "hint" });
     const copy = make("button", { type: "button", class: "main", onclick: () => this.#copy(command.value, "copyCommand") }, say("copyCommand"));
     const link = make("button", { type: "button", onclick: () => this.#copy(this.#link(), "copyLink") }, say("copyLink"));
-    const png = make("button", { type: "button", onclick: () => this.#save() }, say("png"));
+    const png = make("button", { type: "button", onclick: () => this.#try(() => this.#save()) }, say("png"));
     const film = make("button", { type: "button", onclick: () => this.#film(film) }, say("animation"));
     const loom = make("details", { class: "panel" });
     const embed = make("button", { type: "button", onclick: () => this.#copy(this.#embed(), "copyEmbed") }, say("copyEmbed"));
@@ -295,12 +298,15 @@ export class DraperyDesigner extends Element {
     const { motion } = work;
     ui.fault.hidden = true;
     const isWorn = ui.banner instanceof DraperyWearer;
-    if (isWorn && this.#worn !== this.design) ui.banner.pack = { skin: this.#skin, cape: this.#cape() };
+    const worn = this.#wearing();
+    if (isWorn && worn.some((each, at) => each !== this.#worn[at])) ui.banner.pack = this.#dressed();
+    ui.garments.whole.hidden = !isWorn;
+    ui.garments.show(worn[2]);
     for (const [name, value] of Object.entries(this.#attributes()).filter(([each]) => !isWorn || OF_WEARER.includes(each)))
       if (ui.banner.getAttribute(name) !== value) ui.banner[name] = value;
     for (const [name, control] of Object.entries(ui.motion)) control.show(motion[/** @type {keyof Motion} */ (name)]);
-    for (const [name, { whole }] of Object.entries(ui.motion)) whole.hidden = isWorn ? !OF_WEARER.includes(name) : work.kind === "shield" && OF_CLOTH.includes(name);
-    ui.pause.hidden = ui.film.disabled = work.kind === "shield" && !isWorn;
+    for (const [name, { whole }] of Object.entries(ui.motion)) whole.hidden = (isWorn && !OF_WEARER.includes(name)) || (work.kind === "shield" && OF_CLOTH.includes(name));
+    ui.pause.hidden = ui.film.disabled = work.kind === "shield";
     ui.sky.style.setProperty("--day", String(motion.daylight));
     this.#showPause();
     this.#showCommand();
@@ -391,26 +397,19 @@ export class DraperyDesigner extends Element {
   async #save() {
     const { banner } = this.#ui;
     const { kind } = this.#editor.work;
-    try {
-      if (kind === "shield" || this.#pack || this.#skin) return this.#give(await banner.snapshot(), `${kind}.png`);
-      const canvas = make("canvas");
-      drawPixels(canvas, await banner.picture());
-      this.#give(await new Promise((done) => canvas.toBlob(done)), "banner.png");
-    } catch (error) {
-      this.#editor.tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
-    }
+    if (kind === "shield" || this.#pack || this.#skin) return this.#give(await banner.snapshot(), `${kind}.png`);
+    const canvas = make("canvas");
+    drawPixels(canvas, await banner.picture());
+    this.#give(await new Promise((done) => canvas.toBlob(done)), "banner.png");
   }
 
   async #film(/** @type {HTMLButtonElement} */ button) {
     button.disabled = true;
-    try {
+    await this.#try(async () => {
       const film = await this.#ui.banner.record();
       this.#give(film, `banner.${film.type.includes("mp4") ? "mp4" : "webm"}`);
-    } catch (error) {
-      this.#editor.tell(/** @type {Error} */ (error).message.replace(/^drapery: /, ""));
-    } finally {
-      button.disabled = false;
-    }
+    });
+    button.disabled = false;
   }
 
   #give(/** @type {Blob} */ file, /** @type {string} */ name) {
@@ -465,10 +464,22 @@ export class DraperyDesigner extends Element {
     this.#editor.show();
   }
 
-  #cape() {
-    const { work, every } = this.#editor;
-    this.#worn = this.design;
-    return capeOf(/** @type {Faces} */ (every.banner).small.face(shownOf(work)));
+  // The design, its faces, and what has them on a player: a shield, once its faces are there.
+  #wearing() {
+    const { faces, every } = this.#editor;
+    return [this.design, faces, faces && faces === every.shield ? "shield" : this.#cloth];
+  }
+
+  #dressed() {
+    this.#worn = this.#wearing();
+    const [, faces, garment] = this.#worn;
+    return { skin: this.#skin, garment, sheet: sheetWith(faces.small.face(shownOf(this.#editor.work)), garment !== "shield") };
+  }
+
+  #hold(/** @type {string} */ garment) {
+    if (garment !== "shield") this.#cloth = garment;
+    this.#editor.setKind(garment === "shield" ? garment : "banner");
+    this.#editor.show();
   }
 
   async #wear(/** @type {typeof this.#pack} */ pack, /** @type {string} */ told) {

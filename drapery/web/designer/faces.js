@@ -7,7 +7,7 @@ import { unpack } from "../viewer/messages.js";
 
 /** @typedef {{ pattern: string, dye: string }} Layer */
 
-const SIDE_UNITS = 64;
+export const SIDE_UNITS = 64; // of the sheet of a design
 /** @type {Record<string, { file: string, width: number, height: number }>} */
 const FRONTS = { banner: { file: "standing.bin", width: 20, height: 40 }, shield: { file: "shield.bin", width: 12, height: 22 } }; // whose left top is at 1, 1 of 64 [texels]
 

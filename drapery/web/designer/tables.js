@@ -104,6 +104,7 @@ export const TEXTS = {
   "bedrock": "Bedrock (data of a block)",
   "bricks": "Bricks",
   "canvas": "Canvas",
+  "cape": "Cape",
   "change": "Layer {number}: {pattern}",
   "changeHint": "A dye or a pattern changes this layer.",
   "clear": "Remove all layers",
@@ -177,10 +178,11 @@ export const TEXTS = {
   "shield": "Shield",
   "show": "Show layer",
   "silk": "Silk",
-  "skinShown": "{name}: a player wears the design as a cape.",
+  "skinShown": "{name}: a player has the design.",
   "stage": "The banner in the wind",
   "standing": "Standing",
   "stick": "Stick",
+  "tabard": "Tabard",
   "title": "Banner designer",
   "tooMany": "A design has at most {most} layers; delete one first.",
   "undo": "Undo",
@@ -195,6 +197,7 @@ export const TEXTS = {
   "withoutPack": "Without the pack",
   "withoutSkin": "Without the player",
   "wool": "Wool",
+  "wornAs": "Worn as",
 };
 
 /** @type {Record<string, any>} */

@@ -1,10 +1,9 @@
-// A player in a skin that a user opens, whose cape has the design.
+// A player in a skin that a user opens, who has the design as cape, tabard or shield.
 
 import { DraperyBanner } from "../component/element.js";
 import { define } from "../component/places.js";
 import { isSlim, pixelsOfSkin, wholeSkin } from "../component/textures.js";
-
-const CAPE_SIDE = 64; // of the sheet of a design, whose face begins at 1, 1
+import { SIDE_UNITS } from "./faces.js";
 
 /** The pixels of a skin. Throws an Error for another file.
  * @param {File} file */
@@ -15,23 +14,25 @@ export async function readSkin(file) {
   return pixelsOfSkin(image, image.width, image.height, file.name);
 }
 
-/** The sheet of a cape with a face on it.
- * @param {ImageData} face */
-export function capeOf(face) {
-  const sheet = new ImageData(CAPE_SIDE, CAPE_SIDE);
-  for (let at = 0; at < CAPE_SIDE * CAPE_SIDE; at++) {
-    const [x, y] = [at % CAPE_SIDE, Math.floor(at / CAPE_SIDE)].map((texel) => Math.max(0, texel - 1));
-    const from = 4 * (Math.min(y, face.height - 1) * face.width + Math.min(x, face.width - 1));
-    sheet.data.set(face.data.subarray(from, from + 4), 4 * at);
+/** The sheet of a design with a face on it, at 1, 1; cloth has it on its edges and its back, too.
+ * @param {ImageData} face @param {boolean} isCloth */
+export function sheetWith(face, isCloth) {
+  const sheet = new ImageData(SIDE_UNITS, SIDE_UNITS);
+  for (let at = 0; at < SIDE_UNITS * SIDE_UNITS; at++) {
+    const [x, y] = [at % SIDE_UNITS, Math.floor(at / SIDE_UNITS)].map((texel) => texel - 1);
+    const [left, top] = [Math.max(0, Math.min(x, face.width - 1)), Math.max(0, Math.min(y, face.height - 1))];
+    const from = 4 * (top * face.width + left);
+    if (isCloth || (x === left && y === top)) sheet.data.set(face.data.subarray(from, from + 4), 4 * at);
   }
   return sheet;
 }
 
-// Its `pack` has the pixels of the skin and those of the cape.
+// Its `pack` has the pixels of the skin, what has the design (a cape, a tabard or a shield), and the sheet of that.
 export class DraperyWearer extends DraperyBanner {
   async source() {
-    const { skin, cape } = /** @type {any} */ (this.pack);
-    return [isSlim(skin) ? "wearer-slim" : "wearer", { textures: { skin: wholeSkin(skin), cape } }];
+    const { skin, garment, sheet } = /** @type {any} */ (this.pack);
+    const textures = { skin: wholeSkin(skin), [garment === "shield" ? "shield" : "cape"]: sheet };
+    return [`wearer-${garment}${isSlim(skin) ? "-slim" : ""}`, { textures }];
   }
 }
 
