@@ -16,6 +16,7 @@ export class InputHandler {
     this.pointers = new Map();
     this.heldKeys = new Set();
     this.pulling = false;
+    this.ending = new AbortController();
     const { host } = viewer;
     this.listen(host, "pointerdown", (event) => this.down(event));
     this.listen(host, "pointermove", (event) => this.move(event));
@@ -30,14 +31,12 @@ export class InputHandler {
   }
 
   listen(target, name, call) {
-    this.listeners ??= [];
-    this.listeners.push([target, name, call]);
-    target.addEventListener(name, call, { passive: false });
+    target.addEventListener(name, call, { passive: false, signal: this.ending.signal });
   }
 
   end() {
     this.release();
-    for (const [target, name, call] of this.listeners) target.removeEventListener(name, call);
+    this.ending.abort();
   }
 
   change(call) {
@@ -139,9 +138,7 @@ export class InputHandler {
   release() {
     this.drop();
     this.pointers.clear();
-    if (this.heldKeys.size) {
-      this.heldKeys.clear();
-      this.viewer.steer(this.heldKeys);
-    }
+    this.heldKeys.clear();
+    this.viewer.steer(this.heldKeys);
   }
 }

@@ -57,10 +57,7 @@ export class LiveViewer {
     if (this.isStill) emit("still");
     this.observers = [
       new ResizeObserver(() => this.redraw()),
-      new IntersectionObserver((entries) => {
-        this.seen = entries.at(-1).isIntersecting;
-        this.play();
-      }),
+      new IntersectionObserver((entries) => this.play(entries.at(-1).isIntersecting)),
     ];
     this.observers.forEach((each) => each.observe(host));
     this.follow = (event) => this.lay(event.detail.text);
@@ -247,8 +244,9 @@ export class LiveViewer {
     this.play();
   }
 
-  play() {
-    this.each((player) => (player.playing = this.seen && !this.state.paused && !this.isStill));
+  play(seen = this.seen) {
+    this.seen = seen;
+    this.each((player) => (player.playing = seen && !this.state.paused && !this.isStill));
     if (this.players[0]) this.players[0].count = () => this.count();
     this.redraw();
   }

@@ -16,8 +16,13 @@ const studio = (window.studio = {
 // loaded again costs the place its state: then the work that the tab has kept says it.
 function earlierSession() {
   const [{ type }] = performance.getEntriesByType("navigation");
+  return kept(() => history.state?.session ?? (type === "reload" && JSON.parse(sessionStorage.getItem("drapery-history"))?.token));
+}
+
+// What a browser may refuse; null where it does.
+function kept(use) {
   try {
-    return history.state?.session ?? (type === "reload" && JSON.parse(sessionStorage.getItem("drapery-history"))?.token);
+    return use();
   } catch {
     return null;
   }
@@ -39,20 +44,8 @@ async function tell(name, detail) {
 
 // What this browser remembers. Without storage, it lasts as long as the page.
 const store = {
-  get(name) {
-    try {
-      return JSON.parse(localStorage.getItem(`drapery-${name}`));
-    } catch {
-      return null;
-    }
-  },
-  set(name, value) {
-    try {
-      localStorage.setItem(`drapery-${name}`, JSON.stringify(value));
-    } catch {
-      // There is no storage, or it is full.
-    }
-  },
+  get: (name) => kept(() => JSON.parse(localStorage.getItem(`drapery-${name}`))),
+  set: (name, value) => kept(() => localStorage.setItem(`drapery-${name}`, JSON.stringify(value))),
 };
 
 // The latest designs of this browser, so that a closed tab loses none. name: one for each design.
@@ -76,11 +69,7 @@ function writeAddress(link, name) {
   const write = () => history.replaceState({ session: root().dataset.token }, "", `?d=${link}`);
   clearTimeout(addressTimer);
   addressTimer = setTimeout(write, 500);
-  try {
-    write();
-  } catch {
-    // Too many changes: the timer writes the last one.
-  }
+  kept(write); // after too many changes, the timer writes the last one
 }
 
 // Tabs, in groups. On a wide window the panels at the left and below the viewport are always visible.
@@ -220,8 +209,20 @@ document.addEventListener("dragleave", (event) => {
 });
 window.addEventListener("drop", (event) => {
   document.body.classList.remove("dropping");
-  if (holdsFiles(event)) event.preventDefault();
+  if (!holdsFiles(event)) return;
+  event.preventDefault();
+  if (!studio.ready) dropAgain(event);
 }, true);
+
+// Files that are dropped early are dropped once more when all fields are there; an event loses its own with its end.
+async function dropAgain(event) {
+  event.stopImmediatePropagation();
+  const dataTransfer = new DataTransfer();
+  for (const file of event.dataTransfer.files) dataTransfer.items.add(file);
+  await whole;
+  const target = document.elementFromPoint(event.clientX, event.clientY) ?? document.body;
+  target.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+}
 
 // Wait for the page's elements: they are created shortly after this script runs.
 new MutationObserver((_, observer) => {

@@ -256,16 +256,25 @@ const waiting = setInterval(() => {
   if (!window.studio) return;
   clearInterval(waiting);
   const data = new DataTransfer();
-  data.setData("text/plain", "blue skull:white");
-  const paste = new ClipboardEvent("paste", { clipboardData: data, bubbles: true });
-  document.body.dispatchEvent(paste);
+  const more = { bubbles: true, cancelable: true };
+  EVENT
 }, 1);
 """
+EARLY_EVENTS = {
+    "pasted": """data.setData("text/plain", "blue skull:white");
+    document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData: data, ...more }));""",
+    "dropped": """data.items.add(new File(["blue skull:white"], "design.txt"));
+    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: data, ...more }));""",
+}
 
 
-def test_a_text_pasted_before_the_page_is_whole_is_read(chromium: Any, studio: Studio) -> None:
+@pytest.mark.parametrize("way", EARLY_EVENTS)
+def test_what_is_pasted_or_dropped_before_the_page_is_whole_is_read(
+    chromium: Any, studio: Studio, way: str
+) -> None:
     resize(chromium, WIDE)
-    added = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": EARLY})
+    source = EARLY.replace("EVENT", EARLY_EVENTS[way])
+    added = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": source})
     try:
         open_page(chromium, studio)
         is_now(chromium, "blue skull:white")

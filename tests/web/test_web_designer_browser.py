@@ -213,7 +213,8 @@ const [root, name, text, done] = arguments;
 const bytes = Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
 const dataTransfer = new DataTransfer();
 dataTransfer.items.add(new File([bytes], name));
-root.querySelector(".app").dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
+const options = { dataTransfer, cancelable: true, bubbles: true, composed: true };
+root.querySelector(".app").dispatchEvent(new DragEvent("drop", options));
 """
 DROP = f"""{DROPPED}
 const told = root.querySelector(".pack");
@@ -491,6 +492,34 @@ def test_a_dropped_skin_shows_a_player_with_the_design_as_its_cape(
     press(chromium, ".bare")
     assert run(chromium, f"{shown}.localName") == "drapery-banner"
     assert told() == ""
+
+
+EARLY = """
+const waiting = setInterval(() => {
+  const designer = document.querySelector("drapery-designer");
+  if (!designer?.shadowRoot) return;
+  clearInterval(waiting);
+  window.early = !designer.shadowRoot.querySelector(".app");
+  const [dataTransfer, clipboardData] = [new DataTransfer(), new DataTransfer()];
+  const more = { bubbles: true, cancelable: true };
+  clipboardData.setData("text/plain", "blue skull:white");
+  document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData, ...more }));
+  dataTransfer.items.add(new File(["nothing"], "early.zip"));
+  designer.dispatchEvent(new DragEvent("drop", { dataTransfer, ...more }));
+}, 1);
+"""
+
+
+def test_what_comes_before_the_designer_is_there_is_read(chromium: Any, site: str) -> None:
+    added = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": EARLY})
+    try:
+        open_designer(chromium, site)
+        assert run(chromium, "window.early")
+        wait_until(lambda: design(chromium) == "blue skull:white")
+        told = f"{ROOT}.querySelector('.pack').textContent"
+        wait_until(lambda: run(chromium, told).startswith("early.zip is no zip"))
+    finally:
+        chromium.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
 
 
 SHARES = """

@@ -58,13 +58,16 @@ export class DraperyDesigner extends Element {
   #worn = []; // the design that it wears, its faces, and as what
   /** @type {Record<string, any>} */
   #ui = {};
-  #built = false;
+  /** @type {Promise<void> | undefined} */
+  #whole; // once its controls are there
 
   constructor() {
     super();
     const styles = new CSSStyleSheet();
     styles.replaceSync(`${STYLES.editor} ${STYLES.designer}`);
     this.attachShadow({ mode: "open" }).adoptedStyleSheets = [styles];
+    this.addEventListener("dragover", (event) => event.preventDefault());
+    this.addEventListener("drop", this.#drop);
   }
 
   // The design, as the text that links hold. Any form that is read can be set. Throws DesignError.
@@ -97,7 +100,7 @@ export class DraperyDesigner extends Element {
   }
 
   connectedCallback() {
-    if (!this.#built) this.#start();
+    this.#whole ??= this.#start();
     addEventListener("hashchange", this.#follow);
     document.addEventListener("paste", this.#paste);
   }
@@ -109,7 +112,7 @@ export class DraperyDesigner extends Element {
 
   /** @param {string} name @param {string | null} before @param {string | null} now */
   attributeChangedCallback(name, before, now) {
-    if (!this.#built || now === null || now === before) return;
+    if (!this.#whole || now === null || now === before) return;
     this.#try(() => {
       if (name === "design") this.setDesign(now);
       else this.#editor.change(this.#moved({ wind: numberOf(name, now) ?? MOTION.wind }));
@@ -136,7 +139,6 @@ export class DraperyDesigner extends Element {
   // Beginning
 
   async #start() {
-    this.#built = true;
     const editor = this.#editor;
     [editor.words] = await Promise.all([readJson("words.bin").catch(() => ({})), editor.open("banner"), this.#speak(this.#wanted())]);
     const own = this.getAttribute("design");
@@ -206,7 +208,7 @@ export class DraperyDesigner extends Element {
       make("div", { class: "tools", role: "toolbar", "aria-label": say("title") }, parts.undo, parts.redo, parts.random, parts.clear, parts.kind, make("span", { class: "language", "data-code": this.#editor.language.code }, language)));
     const dyes = make("section", { class: "dyes", "aria-label": say("dyes") }, ...parts.dyes);
     const made = parts.patterns && make("section", { class: "make", "aria-label": say("patterns") }, ...parts.patterns);
-    const app = make("div", { class: "app", lang: this.#editor.language.code, onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event), ondragover: (/** @type {DragEvent} */ event) => event.preventDefault(), ondrop: this.#drop },
+    const app = make("div", { class: "app", lang: this.#editor.language.code, onkeydown: (/** @type {KeyboardEvent} */ event) => this.#press(event) },
       bar, this.#stage(), dyes, made, this.#side());
     /** @type {ShadowRoot} */ (this.shadowRoot).replaceChildren(app);
   }
@@ -437,7 +439,7 @@ export class DraperyDesigner extends Element {
     const [file] = event.dataTransfer?.files ?? [];
     if (!file) return; // a text goes into a field
     event.preventDefault();
-    this.#take(file);
+    this.#whole?.then(() => this.#take(file));
   };
 
   // Show all pictures with the textures of a pack, or the player of a skin.
@@ -503,7 +505,7 @@ export class DraperyDesigner extends Element {
     const isOurs = target === document.body || event.composedPath().includes(this);
     if (!isOurs || (target instanceof HTMLElement && target.matches("input, textarea, [contenteditable]"))) return;
     const text = event.clipboardData?.getData("text/plain");
-    if (text && this.#built) this.#read(text);
+    if (text) this.#whole?.then(() => this.#read(text));
   };
 }
 

@@ -5,8 +5,6 @@ import { HIDDEN, drawPixels, icon, iconButton, make, roving } from "./dom.js";
 /** @typedef {import("./model.js").Work} Work */
 /** @typedef {{ select(at: number | "field" | null): void, move(from: number, to: number): void, hide(at: number): void, remove(at: number): void, double(at: number): void }} Acts */
 
-const CHECKS = "white"; // what a single layer lies on, unless its dye is pale
-
 export class LayerList {
   /** @param {Acts} acts @param {(key: string, values?: Record<string, any>) => string} say
    * @param {{ dye: (name: string) => string, pattern: (name: string) => string }} titles */
@@ -39,7 +37,7 @@ export class LayerList {
     const title = say("layerIn", { pattern: titles.pattern(layer.pattern), dye: titles.dye(layer.dye) });
     const [plain, heraldic] = titles.pattern(layer.pattern).split(" / ");
     const canvas = make("canvas", HIDDEN);
-    const ground = { base: layer.dye === "white" || layer.dye === "light_gray" ? "gray" : CHECKS, layers: [layer] };
+    const ground = { base: ["white", "light_gray"].includes(layer.dye) ? "gray" : "white", layers: [layer] };
     drawPixels(canvas, faces.face(ground));
     const button = make("button", {
       type: "button", class: "layer", "aria-pressed": String(isChosen), "aria-keyshortcuts": "Alt+ArrowUp Alt+ArrowDown Delete H D",

@@ -23,10 +23,7 @@ export class Orbit {
   }
 
   reset() {
-    this.azimuth = 0;
-    this.elevation = 0;
-    this.zoom = 1;
-    this.offset = [0, 0];
+    Object.assign(this, { azimuth: 0, elevation: 0, zoom: 1, offset: [0, 0] });
   }
 
   turn(azimuth, elevation) {
