@@ -18,9 +18,11 @@ from drapery.studio.sketch import MAX_TITLE, Sketch
 LOG = logging.getLogger(__name__)
 
 Event = (
-    Literal["sketch", "settings", "packs", "scene", "recent", "library"] | Literal["laid", "read"]
+    Literal["sketch", "settings", "packs", "scene", "recent", "library"]
+    | Literal["laid", "read", "files"]
 )
-"""`laid`: a design for the page's editor. `read`: a text or a file, of which designs come."""
+"""`laid`: a design for the page's editor. `read`: a text or a file, of which designs come. `files`:
+the garments and skins that another tab was sent."""
 
 MAX_STATES = 24
 """The most designs that a tab remembers to compare with."""

@@ -1,14 +1,17 @@
 """The garments and the skins of a tab's own: files that its user sent and named."""
 
 import re
+import secrets
 import shutil
-from pathlib import Path
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path, PurePath
 
 from drapery import DraperyError
 from drapery.errors import OptionError, shown
 from drapery.garments import Garment, check_skin, tailor
 from drapery.studio.document import Document
-from drapery.studio.uploads import Uploads
+from drapery.studio.uploads import Uploads, link_or_copy
 
 MAX_PARTICLES = 4096
 """The most particles of all pieces of a garment."""
@@ -49,7 +52,7 @@ class GarmentStore:
             self._uploads.remove(number)
             raise OptionError(f"this tab has {MAX_FILES} garments and skins; open a new one")
         stem = re.sub(r"[^a-z0-9_-]+", "-", Path(upload.name).stem.lower())[:MAX_NAME].strip("-")
-        folder = self._document.folder / f"{purpose}-{number}-own"
+        folder = self._document.folder / f"{purpose}-{secrets.token_hex(8)}"
         path = folder / f"{stem or purpose}{ENDINGS[purpose]}"
         try:
             folder.mkdir()
@@ -69,6 +72,19 @@ class GarmentStore:
         self.names[str(path)] = upload.name
         return str(path)
 
+    def restore(self, names: Mapping[str, str]) -> None:
+        """Take over the files of another tab, as `names` has them, if they are still there."""
+        for path, name in names.items():
+            here = self._document.folder / _place(path)
+            with suppress(OSError):
+                here.parent.mkdir(exist_ok=True)
+                link_or_copy(Path(path), here)
+                self.names[str(here)] = name
+
+    def find(self, path: object) -> str | None:
+        """The path of a file that was sent to this tab, or to one that this tab goes on from."""
+        return next((each for each in self.names if _place(each) == _place(str(path))), None)
+
     def _check(self, path: Path, purpose: str) -> None:
         if purpose == "skin":
             check_skin(path, MAX_SKIN)
@@ -85,3 +101,8 @@ class GarmentStore:
             raise OptionError(
                 f"garment {garment.name} has {count} particles; use at most {MAX_PARTICLES}"
             )
+
+
+def _place(path: str) -> PurePath:
+    """The place of a file in the folder of its tab; no two files that were sent have the same."""
+    return PurePath(*PurePath(path).parts[-2:])

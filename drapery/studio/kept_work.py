@@ -22,11 +22,13 @@ MAX_BYTES = 1 << 30
 class Work:
     """What a tab can go on from.
 
-    packs: lowest first. states, entries, tags: as in `Session`. The page keeps what can be undone.
+    packs: lowest first. garments: the names of garments and skins that were sent, by their paths.
+    states, entries, tags: as in `Session`. The page keeps what can be undone.
     """
 
     states: tuple[Sketch, ...]
     packs: tuple[PackEntry, ...]
+    garments: dict[str, str]
     entries: dict[int, int]
     tags: dict[int, str]
 

@@ -96,7 +96,7 @@ class Session(Document):
     def work(self) -> Work:
         """What another page needs to go on from here."""
         packs = self.pack_store.entries
-        own = {**self.entries}, {**self.tags}
+        own = {**self.garment_store.names}, {**self.entries}, {**self.tags}
         return Work(self.states, packs, *own)
 
     def set_recent(self, links: object) -> None:
@@ -138,11 +138,13 @@ class Session(Document):
         chosen = with_shared(self.settings, settings_of(options))
         banner = shown.pop("banner", {})
         before = settings_of(banner)
-        own = self.garment_store.names
         known: dict[str, Callable[[], Iterable[str]]]
         known = {"scene": scene_names, "garment": garment_names, "skin": skin_names}
         for kind, name in shown.items():
-            if kind not in known or name not in [*known[kind](), *own]:
+            if kind in known and name in known[kind]():
+                continue
+            shown[kind] = self.garment_store.find(name)
+            if kind not in known or shown[kind] is None:
                 raise DesignError("the file is not here any more; send it again")
         self.adjust(**{name: chosen.as_given(name) for name in MOVED})
         self.viewport.banner_options = {name: before.as_given(name) for name in banner}
@@ -165,6 +167,9 @@ class Session(Document):
         self.entries |= work.entries
         self.tags |= work.tags
         self.states = (*work.states, *(each for each in self.states if each not in work.states))
+        if work.garments:
+            self.garment_store.restore(work.garments)
+            self.notify("files")
         try:
             self.pack_store.restore(work.packs)
         finally:
@@ -221,7 +226,8 @@ class Sessions:
     def keep(self, session: Session) -> None:
         """End the session of a page that is gone; keep its work if it has any."""
         has_packs = any(entry.upload for entry in session.pack_store.entries)
-        keeps = not session.closed and (has_packs or len(session.states) > 1)
+        has_files = has_packs or session.garment_store.names
+        keeps = not session.closed and (has_files or len(session.states) > 1)
         work, folder = session.work, session.take_folder() if keeps else None
         session.close()  # first, since it removes what exports have written
         if keeps:

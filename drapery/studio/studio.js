@@ -10,6 +10,7 @@ const studio = (window.studio = {
   tab,
   writeAddress,
   earlier: earlierSession(),
+  whole: () => whole,
 });
 
 // Of the page that was loaded before at this place of the history. An address that is written while the page is
@@ -51,10 +52,7 @@ const store = {
 // The latest designs of this browser, so that a closed tab loses none. name: one for each design.
 const MAX_RECENT = 12;
 
-function recent() {
-  const found = store.get("recent");
-  return Array.isArray(found) ? found : [];
-}
+const recent = () => [store.get("recent") ?? []].flat();
 
 function remember(name, link) {
   const others = recent().filter((each) => each.name !== name && each.link !== link);

@@ -33,7 +33,9 @@ export class StudioDesigner {
     });
     Object.assign(this.editor, { language, words, chosen: design.layers.length ? null : "field" });
     document.querySelector(".studio").addEventListener("act", (event) => this.act(event.detail));
-    this.redraw(faces).then(() => this.announce());
+    // A file that was sent is known to the server again once it has heard of the earlier session.
+    const isSent = Object.values(this.editor.work.motion.shown ?? {}).some((each) => /[\\/]/.test(each));
+    Promise.all([this.redraw(faces), isSent && window.studio.whole()]).then(() => this.announce());
   }
 
   // The history of a work. It goes on from the page that was loaded before at this place of the browser's

@@ -9,6 +9,7 @@ from pack_maker import CREEPER, META, mcmeta, plain, zip_pack
 
 from drapery.banner.design import Banner
 from drapery.errors import DesignError
+from drapery.garments import Garment
 from drapery.studio import kept_work
 from drapery.studio.app import prune_regularly
 from drapery.studio.kept_work import KeptWork
@@ -54,6 +55,34 @@ def test_designs_packs_and_the_librarys_entry_are_there_again(pack: Path, is_gon
     folder = Path(second.settings.pack_paths[0]).parent
     sessions.close_all()
     assert not folder.exists()
+
+
+SHAWL = 'piece = [{ name = "shawl", size = [8, 8], points = [3, 3], place = [0, 9, 0] }]'
+
+
+@pytest.mark.parametrize("is_gone", [False, True])
+def test_a_garment_that_was_sent_is_worn_again(is_gone: bool) -> None:
+    sessions = Sessions()
+    first = sessions.open()
+    chunks = _chunks(SHAWL.encode())
+    number = asyncio.run(first.uploads.receive(chunks, "garment", "My Shawl.toml")).number
+    path = first.garment_store.adopt(number, "garment")
+    first.viewport.update(garment=path)
+    step = first.motion  # as the page keeps it
+    stranger = sessions.open()
+    with pytest.raises(DesignError, match="the file is not here any more; send it again"):
+        stranger.move(step)
+    if is_gone:
+        sessions.keep(first)
+    second = sessions.open()
+    second.resume(sessions.work(first.token))
+    first.close()
+    second.move(step)
+    worn = second.viewport.request.garment
+    assert worn != path and Path(worn).parents[1] == second.folder
+    assert Garment.load(Path(worn)).piece[0].name == "shawl"
+    assert second.garment_store.titles("garment") == {worn: "My Shawl.toml"}
+    sessions.close_all()
 
 
 def test_a_closed_tab_makes_no_new_folder() -> None:

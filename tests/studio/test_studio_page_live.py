@@ -245,6 +245,12 @@ def test_a_garment_of_ones_own_is_sent_and_shown(page: Any, tmp_path: Path) -> N
     wait_until(lambda: "wrong.toml line 1: size has too few values" in page.page_source)
     field.send_keys(str(right))
     wait_until(lambda: "The garment shawl" in page.page_source or "shawl.toml" in chosen.text)
+    worn = "return document.querySelector('.live-bar').querySelectorAll('select')[1]"
+    title = f"{worn}.selectedOptions[0]?.text"
+    wait_until(lambda: page.execute_script(title) == "shawl.toml")
+    page.refresh()
+    wait_until(lambda: page.execute_script("return !!window.studio?.ready"))
+    wait_until(lambda: page.execute_script(title) == "shawl.toml")
     assert console_errors(page) == []
 
 

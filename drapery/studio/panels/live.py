@@ -99,6 +99,12 @@ def build(session: Session) -> None:
     fields.on_refresh(show)
     session.follow(fields.refresh, "settings", "scene")
 
+    def list_files() -> None:
+        for kind, listed in lists.items():
+            listed.set_choices(_titles(session, kind))
+
+    session.listen(list_files, "files")
+
     async def list_scenes() -> None:
         # Listing the scenes imports them, so do it after the first picture.
         found = await run.io_bound(scene_summaries)
@@ -106,8 +112,7 @@ def build(session: Session) -> None:
         if found is not None and not session.closed:
             names = {name: named(name, summary) for name, summary in found.items()}
             scenes.set_choices({"": translated(OWN)} | names)
-            for kind, listed in lists.items():
-                listed.set_choices(_titles(session, kind))
+            list_files()
 
     ui.timer(LATER, list_scenes, once=True)
 
