@@ -121,8 +121,7 @@ def _played_cloth(worn: Dressed, sewn: SewnCloth) -> PlayedCloth:
         replace(drape.begin(worn.step), state=single),
         (Gravity(), wind, *settings.forces),
         replace(wind, velocity=wind_of(settings).velocity),
-        sewn.pieces[0].shell,
-        sewn.thickness,
+        sewn.pieces[0],
         MIDDLE,
         motion=LiveMotion(drape.pins, *cycle, (0.0, 0.0, -speed), sewn.cloth.drag),
     )

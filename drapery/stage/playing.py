@@ -32,10 +32,10 @@ from drapery.stage.staging import Staging
 from drapery.style.block import turn_centre, turn_matrix
 from drapery.style.body import Body, Panel
 from drapery.style.cloth_spec import cloth_at_rest
-from drapery.style.extrusion import Shell
 from drapery.style.grids import finer_shell
 from drapery.style.live_figure import LiveFigure, pose_figure
 from drapery.style.live_shell import LiveShell, cover, make_live_shell
+from drapery.style.piece import Piece
 
 SPARE = MAX_LAYERS + 2
 """Layers of a design: the bare cloth, its base and its patterns."""
@@ -80,10 +80,8 @@ class PlayedCloth:
     moving: the cloth.
     forces: on it, with one wind.
     wind: the free wind, which a host may turn.
-    shell: the surface around its particles.
-    thickness: of the cloth [m].
+    piece: how it is drawn.
     place: of its own frame in the picture [m], shape [3].
-    finer: the surface around curves through the particles; None for the one around them.
     lee: see `live_call`.
     motion: see `live_call`.
     header: further facts for hosts, for JSON.
@@ -92,10 +90,8 @@ class PlayedCloth:
     moving: MovingCloth
     forces: tuple[Force, ...]
     wind: Wind
-    shell: Shell
-    thickness: float
+    piece: Piece
     place: Vectors
-    finer: Shell | None = None
     lee: tuple[float, float, float] = (1.0, 1.0, 1.0)
     motion: LiveMotion = STILL
     header: Mapping[str, Any] = field(default_factory=dict)
@@ -173,8 +169,8 @@ def live_picture(body: Body, settings: Settings, lanes: int | None = None) -> Li
         )
     at = Schedule.still(staging.settings.time, STEP)
     cloth = _played_cloth(staged, body.panels[0], at.dt)
-    finer = finer_shell(cloth.shell, staged.times)
-    panel = _live_panel(replace(cloth, finer=finer), staging, lanes)
+    piece = replace(cloth.piece, finer=finer_shell(cloth.piece.shell, staged.times))
+    panel = _live_panel(replace(cloth, piece=piece), staging, lanes)
     scene = next(staged.scenes(staged.record(at), at))
     live = make_live_picture(scene, len(scene.models) - 1, SPARE)
     vertices, normals = panel.arrays["vertices"], panel.arrays["normals"]
@@ -213,8 +209,7 @@ def _played_cloth(staged: StagedBody, panel: Panel, step: float = STEP) -> Playe
         cloth_at_rest(panel.cloth, step),
         forces_of(settings, wind),
         wind,
-        piece.shell,
-        piece.thickness,
+        piece,
         panel.origin,
         lee=(1.0, 1.0, lee_of(settings)),
         header={"columns": columns, "rows": rows, "size": list(map(float, piece.size))},
@@ -225,9 +220,7 @@ def _live_panel(cloth: PlayedCloth, staging: Staging, lanes: int | None) -> Live
     call = live_call(cloth.moving, cloth.forces, cloth.wind, cloth.lee, lanes, cloth.motion)
     live, blown, plan, batch, substeps = call
     turning = turning_of(staging.settings)
-    shell = make_live_shell(
-        cloth.shell, cloth.place, cloth.thickness, staging.light, *turning, cloth.finer
-    )
+    shell = make_live_shell(cloth.piece, cloth.place, staging.light, *turning)
     x, _, z = blown.velocity
     method = type(plan).__name__.removesuffix("Plan").lower()
     return LivePanel(

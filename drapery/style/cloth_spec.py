@@ -27,6 +27,7 @@ from drapery.cloth.gathering import fold_count, gathered_state
 from drapery.cloth.pins import PinName
 from drapery.cloth.solvers.registry import solver
 from drapery.settings import Settings
+from drapery.style.piece import Piece
 
 ENDLESS = 1e3
 """A solid without an end is a box up to this coordinate [m]."""
@@ -149,8 +150,7 @@ _kept_at_rest = lru_cache(maxsize=16)(_at_rest)
 
 def hanging_cloth(
     settings: Settings,
-    size: tuple[float, float],
-    texel: float,
+    piece: Piece,
     origin: Vectors,
     solids: Sequence[Solid],
     fullness: float = 0.0,
@@ -158,8 +158,7 @@ def hanging_cloth(
     """How the settings make a rectangle of cloth that hangs from its top edge.
 
     settings: the options of the picture.
-    size: width and height [m].
-    texel: the edge of a texel [m].
+    piece: how it is drawn, a whole grid.
     origin: place of the middle of its top edge [m], shape [3].
     solids: what it cannot enter.
     fullness: see `ClothSpec`.
@@ -167,13 +166,13 @@ def hanging_cloth(
     met = solids if settings.contact != "none" else ()
     return ClothSpec(
         settings.grid,
-        size,
+        piece.size,
         settings.pins or "top",
         settings.solver,
         settings.fabric,
         tuple(solid.seen_from(origin) for solid in met),
         settings.contact == "all",
-        max(settings.thickness, THINNEST) * texel,
+        max(piece.thickness, THINNEST * piece.texel),
         fullness,
     )
 

@@ -10,7 +10,8 @@ from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 from drapery.render.light import Light
 from drapery.style.crowds import average_normals, cover_sheet, least_lengths
-from drapery.style.extrusion import THINNEST, Shell
+from drapery.style.extrusion import THINNEST
+from drapery.style.piece import Piece
 from drapery.style.refinement import cover_finer
 
 __all__ = ["LiveShell", "cover", "make_live_shell", "show"]
@@ -51,26 +52,24 @@ class LiveShell(NamedTuple):
 
 
 def make_live_shell(
-    shell: Shell,
-    place: Array,
-    thickness: float,
-    light: Light,
-    turn: Array,
-    middle: Array,
-    finer: Shell | None = None,
+    piece: Piece, place: Array, light: Light, turn: Array, middle: Array
 ) -> LiveShell:
-    """The shell of a panel. thickness: [m]; for the others see `LiveShell`.
+    """The shell of a piece at rest.
 
-    finer: the shell of curves through its particles, see `cover_curves`; None for its own.
+    piece: the cloth, drawn around curves through its particles if it has a `finer` shell.
+    place: of its frame [m], shape [3].
+    light: the light on it.
+    turn: rotation of the body, shape [3, 3].
+    middle: the point about which it turns [m], shape [3].
     """
-    drawn = finer or shell
+    shell, drawn = piece.shell, piece.finer or piece.shell
     count = len(drawn.uvs)
     flat, tiny = least_lengths(np.float64)
     return LiveShell(
         np.ascontiguousarray(shell.sheet),
         *shell.runs_around,
         np.ascontiguousarray(drawn.rim),
-        max(thickness, THINNEST) / 2.0,
+        max(piece.thickness, THINNEST) / 2.0,
         float(flat),
         float(tiny),
         np.array(place, float),

@@ -38,7 +38,6 @@ def body(banner: Banner | None, packs: Packs, settings: Settings) -> Body:
 def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placement) -> Body:
     columns, rows = settings.grid
     origin = flag_origin(placement)
-    cloth = hanging_cloth(settings, FLAG_SIZE, SCALE, origin, solids(placement), FULLNESS)
     piece = Piece(
         grid_shell(rows, columns, FLAG_MAPPING),
         settings.thickness * SCALE,
@@ -48,7 +47,7 @@ def _block(banner: Banner, packs: Packs, settings: Settings, placement: Placemen
         "banner/cloth",
     )
     flag = Panel(
-        cloth,
+        hanging_cloth(settings, piece, origin, solids(placement), FULLNESS),
         piece,
         origin,
         lambda phase: stiff_flag(placement, phase, settings.thickness),

@@ -35,7 +35,7 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
         "cape/cloth",
     )
     shoulders = np.array(SHOULDERS)
-    cloth = hanging_cloth(settings, CAPE_SIZE, TEXEL, shoulders, _wearer())
+    cloth = hanging_cloth(settings, piece, shoulders, _wearer())
     cape = Panel(cloth, piece, shoulders, lambda phase: _stiff(settings.thickness))
     return Body((), (cape,))
 
