@@ -13,7 +13,7 @@ import numpy as np
 
 from drapery import elementary
 from drapery.cloth.simd import fill, flush_denormals, lane_count, load, maximum, sqrt, store
-from drapery.cloth.wind import CROSSWIND
+from drapery.cloth.wind import COLUMN, CROSSWIND
 from drapery.jit import kernel, numba_name
 
 TINY = 1e-6
@@ -230,12 +230,14 @@ def blow(
     F = x.dtype.type
     numbers, seed = gusts.numbers[number], gusts.seeds[number]
     phases, origins = gusts.phases[number], gusts.origins[number]
+    speed, sine, sine_rate = numbers[COLUMN.speed], numbers[COLUMN.sine], numbers[COLUMN.sine_rate]
+    gust_rate, gust_cells = numbers[COLUMN.gust_rate], numbers[COLUMN.gust_cells]
     at, swell, drift, first, noise = work[6:9], work[9], work[10], work[11], work[12:15]
     for lane in range(x.shape[1]):
         now = time + phases[np.uintp(start) + np.uintp(lane)]
-        swell[lane] = numbers[9] * (1 + numbers[10] * sine_of_turns(now * numbers[11]))
-        cells = now * numbers[14]
-        cells -= numbers[15] * np.floor(cells / numbers[15])
+        swell[lane] = speed * (1 + sine * sine_of_turns(now * sine_rate))
+        cells = now * gust_rate
+        cells -= gust_cells * np.floor(cells / gust_cells)
         first[lane] = -np.floor(cells)
         drift[lane] = cells - np.floor(cells)
         for wave in range(gusts.rates.shape[1]):
@@ -243,12 +245,13 @@ def blow(
             wind[3 * controls.size + 2 * wave, lane] = sine_of_turns(phase)
             wind[3 * controls.size + 2 * wave + 1, lane] = sine_of_turns(phase + 0.25)
     # Noise is 0 where all three coordinates are whole numbers: avoid that at the origin.
-    middle, scale = F(0.5), F(numbers[13])
-    along, across, up = F(numbers[12] * ALONG), F(numbers[12] * ACROSS), F(numbers[12] * UP)
+    middle, scale, gusty = F(0.5), F(numbers[COLUMN.gust_scale]), numbers[COLUMN.gusts]
+    along, across, up = F(gusty * ALONG), F(gusty * ACROSS), F(gusty * UP)
     for control in range(controls.size):
         row = 3 * controls[control]
         for axis in range(at.shape[0]):
-            ex, ey, ez = F(numbers[3 * axis]), F(numbers[3 * axis + 1]), F(numbers[3 * axis + 2])
+            e = COLUMN.axes + 3 * axis
+            ex, ey, ez = F(numbers[e]), F(numbers[e + 1]), F(numbers[e + 2])
             for lane in range(x.shape[1]):
                 px = x[row, lane] + origins[0, np.uintp(start) + np.uintp(lane)]
                 py = x[row + 1, lane] + origins[1, np.uintp(start) + np.uintp(lane)]
@@ -256,9 +259,10 @@ def blow(
                 at[axis, lane] = scale * (ex * px + ey * py + ez * pz) + middle
         for lane in range(x.shape[1]):
             at[0, lane] -= drift[lane]
-        gradient_noise(noise, at, first, numbers[15], seed)
+        gradient_noise(noise, at, first, gust_cells, seed)
         for axis in range(at.shape[0]):
-            e0, e1, e2 = F(numbers[axis]), F(numbers[3 + axis]), F(numbers[6 + axis])
+            e = COLUMN.axes + axis
+            e0, e1, e2 = F(numbers[e]), F(numbers[e + 3]), F(numbers[e + 6])
             for lane in range(x.shape[1]):
                 wind[3 * control + axis, lane] = (
                     e0 * (swell[lane] + along * noise[0, lane])
@@ -276,7 +280,7 @@ def add_wind_velocities(
     Waves blow along the normal of each face; their phases are in the rows of `wind` after the
     controls. v may be the same array as g.
     """
-    faces, inv_mass, pressure = body.faces, body.inv_mass, gusts.numbers[number, 16]
+    faces, inv_mass, pressure = body.faces, body.inv_mass, gusts.numbers[number, COLUMN.pressure]
     sines, cosines, first = gusts.sines[number], gusts.cosines[number], 3 * body.controls.size
     tiny = x.dtype.type(1e-30)
     for i in range(inv_mass.size):

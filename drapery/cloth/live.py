@@ -145,13 +145,13 @@ def _narrowed(batch: Batch, lanes: int, wind: LiveWind) -> Batch:
     def cut(values: Array) -> Array:
         return np.ascontiguousarray(values[..., :lanes])
 
-    waves = len(wind.ripples.turns) + len(wind.vortices)
+    waves = len(wind.ripple_tables.turns) + len(wind.vortex_turns)
     shape = 1, waves, len(wind.rest) + PADDING
     gusts = batch.gusts._replace(
         phases=cut(batch.gusts.phases),
         origins=cut(batch.gusts.origins),
         rates=np.zeros((1, waves)),
-        turns=np.concatenate([wind.ripples.turns, wind.vortices])[None],
+        turns=np.concatenate([wind.ripple_tables.turns, wind.vortex_turns])[None],
         sines=np.zeros(shape, batch.x.dtype),
         cosines=np.zeros(shape, batch.x.dtype),
     )

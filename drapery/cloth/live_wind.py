@@ -18,7 +18,7 @@ from drapery.cloth.ripples import (
     vortex_strength,
     vortex_turns,
 )
-from drapery.cloth.wind import Wind
+from drapery.cloth.wind import COLUMN, Wind
 from drapery.jit import entry_point, kernel
 from drapery.mesh import Array
 
@@ -37,21 +37,24 @@ class LiveWind(NamedTuple):
     """What `aim` needs to turn a wind.
 
     velocity: the free mean wind that the host wants [m/s], [3]. lee: factors of it at the cloth,
-    [3]. airflow: added to it at the cloth [m/s], [3]. pull: gravity without wind [m/s²], then the
-    part of the wind's velocity that acts beside it [1/s], [4]. swell: frequency of the swell
-    [1/s], [1]. strengths: of gusts, ripples and vortices over the mean speed, then the size of the
-    gusts [m], [4]. ripples: none without them. vortices: the phase of the vortices,
-    [1], or none. rest, normal, down: see `resting_frame`.
+    [3]. airflow: added to it at the cloth [m/s], [3]. gravity: without wind [m/s²], [3].
+    carried: the part of the wind's velocity that acts beside it [1/s]. gusts, gust_size,
+    sine_period, ripples, vortices: as in `Wind`. ripple_tables: empty without ripples.
+    vortex_turns: the phase of the vortices, [1], or none. rest, normal, down: see `resting_frame`.
     """
 
     velocity: Array
     lee: Array
     airflow: Array
-    pull: Array
-    swell: Array
-    strengths: Array
-    ripples: RippleTables
-    vortices: Array
+    gravity: Array
+    carried: float
+    gusts: float
+    gust_size: float
+    sine_period: float
+    ripples: float
+    vortices: float
+    ripple_tables: RippleTables
+    vortex_turns: Array
     rest: Array
     normal: Array
     down: Array
@@ -66,15 +69,19 @@ def make_live_wind(
     carried: float,
 ) -> LiveWind:
     """A wind before it is multiplied by lee, ready to be turned by `aim`; see `LiveWind`."""
-    ripples = ripple_tables(wind)
+    tables = ripple_tables(wind)
     return LiveWind(
         np.array(wind.velocity, float),
         np.array(lee, float),
         np.array(airflow, float),
-        np.array([*gravity, carried], float),
-        np.array([1.0 / wind.sine_period]),
-        np.array([wind.gusts, wind.ripples, wind.vortices, wind.gust_size], float),
-        ripples if wind.ripples else RippleTables(*(part[:0] for part in ripples)),
+        np.array(gravity, float),
+        float(carried),
+        float(wind.gusts),
+        float(wind.gust_size),
+        float(wind.sine_period),
+        float(wind.ripples),
+        float(wind.vortices),
+        tables if wind.ripples else RippleTables(*(part[:0] for part in tables)),
         vortex_turns(wind) if wind.vortices else np.zeros(0),
         *resting_frame(cloth),
     )
@@ -91,21 +98,23 @@ def aim(live: Any, wind: Any, gusts: Any, loads: Any) -> Any:
     x = wind.lee[0] * wind.velocity[0] + wind.airflow[0]
     y = wind.lee[1] * wind.velocity[1] + wind.airflow[1]
     z = wind.lee[2] * wind.velocity[2] + wind.airflow[2]
-    loads[3] = wind.pull[0] + wind.pull[3] * x
-    loads[4] = wind.pull[1] + wind.pull[3] * y
-    loads[5] = wind.pull[2] + wind.pull[3] * z
+    loads[3] = wind.gravity[0] + wind.carried * x
+    loads[4] = wind.gravity[1] + wind.carried * y
+    loads[5] = wind.gravity[2] + wind.carried * z
     speed = np.sqrt(x * x + y * y + z * z)
-    numbers, frequency = gusts.numbers[0], speed / wind.strengths[3]
+    numbers, frequency = gusts.numbers[0], speed / wind.gust_size
     now = later = 0.0
     if live.clock[0] > 0:
         time = live.clock[0] * live.dt[0]
         now = time + gusts.phases[0, 0]
         later = same_gust(now, numbers, frequency)
-        numbers[11] = swell_frequency(now * numbers[11], later, wind.swell[0])
+        turns = now * numbers[COLUMN.sine_rate]
+        numbers[COLUMN.sine_rate] = swell_frequency(turns, later, 1.0 / wind.sine_period)
         for lane in range(gusts.phases.shape[1]):
             gusts.phases[0, lane] = later - time
     turn_axes(numbers, x, y, z, speed)
-    numbers[9], numbers[12], numbers[14] = speed, wind.strengths[0] * speed, frequency
+    numbers[COLUMN.speed], numbers[COLUMN.gusts] = speed, wind.gusts * speed
+    numbers[COLUMN.gust_rate] = frequency
     turn_waves(wind, gusts, x, y, z, speed, now, later)
     return 0
 
@@ -116,10 +125,11 @@ def same_gust(now: Any, numbers: Any, frequency: Any) -> Any:
 
     It is late enough for `swell_frequency`: the gusts repeat.
     """
-    if not (numbers[14] > 0 and frequency > 0):
+    rate = numbers[COLUMN.gust_rate]
+    if not (rate > 0 and frequency > 0):
         return now
-    later = now * numbers[14] / frequency
-    repeated = numbers[15] / frequency
+    later = now * rate / frequency
+    repeated = numbers[COLUMN.gust_cells] / frequency
     if later < LATE:
         later += np.ceil((LATE - later) / repeated) * repeated
     return later
@@ -140,13 +150,11 @@ def turn_axes(numbers: Any, x: Any, y: Any, z: Any, speed: Any) -> None:
     ax, az = (ez / length, -ex / length) if length > 1e-9 else (1.0, 0.0)
     if speed == 0:
         ax, az = 0.0, 1.0
-    numbers[0], numbers[1], numbers[2] = ex, ey, ez
-    numbers[3], numbers[4], numbers[5] = ax, 0.0, az
-    numbers[6] = ey * az
-    numbers[7] = ez * ax - ex * az
-    numbers[8] = 0.0 - ey * ax
-    if speed == 0:
-        numbers[7] = 1.0
+    third = ey * az, 1.0 if speed == 0 else ez * ax - ex * az, 0.0 - ey * ax
+    rows = (ex, ey, ez), (ax, 0.0, az), third
+    for row in range(3):
+        for axis in range(3):
+            numbers[COLUMN.axes + 3 * row + axis] = rows[row][axis]
 
 
 @kernel
@@ -172,26 +180,26 @@ def turn_waves(
     for i in range(wind.rest.shape[0]):
         across = wind.rest[i, 0] * bx + wind.rest[i, 1] * by + wind.rest[i, 2] * bz
         low, high = min(low, across), max(high, across)
-    count = wind.ripples.turns.size
+    count = wind.ripple_tables.turns.size
     for k in range(count):
-        table = wind.ripples
+        table = wind.ripple_tables
         rate = rate_of(speed, table.carried[k], table.forward[k], table.lengths[k])
         put_rate(gusts, k, rate, now, later)
-    if wind.vortices.size > 0:
+    if wind.vortex_turns.size > 0:
         rate = vortex_rate_of(speed, high - low) if high > low else 0.0
         put_rate(gusts, count, rate, now, later)
     for i in range(wind.rest.shape[0]):
         along = wind.rest[i, 0] * ax + wind.rest[i, 1] * ay + wind.rest[i, 2] * az
         across = wind.rest[i, 0] * bx + wind.rest[i, 1] * by + wind.rest[i, 2] * bz
         for k in range(count):
-            table = wind.ripples
-            strength = strength_of(table.roots[k], wind.strengths[1], speed, table.norm[0])
+            table = wind.ripple_tables
+            strength = strength_of(table.roots[k], wind.ripples, speed, table.norm[0])
             place = place_of(table.forward[k], table.sideways[k], along, across, table.lengths[k])
             put_wave(gusts, k, i, strength, place)
-        if wind.vortices.size > 0:
+        if wind.vortex_turns.size > 0:
             strength = place = 0.0
             if speed > 0 and high > low:
-                strength = vortex_strength_of(wind.strengths[2], speed, across, low, high)
+                strength = vortex_strength_of(wind.vortices, speed, across, low, high)
                 place = vortex_place_of(along, gusts.rates[0, count], speed)
             put_wave(gusts, count, i, strength, place)
 

@@ -11,7 +11,7 @@ import numpy as np
 from drapery.cloth import kernels
 from drapery.cloth.kernels import MIN_SPEED, TINY
 from drapery.cloth.simd import fill, flush_denormals, lane_count, load, maximum, sqrt, store
-from drapery.cloth.wind import Gusts
+from drapery.cloth.wind import COLUMN, Gusts
 from drapery.jit import kernel
 
 LIMIT, SOLVE = 0, 1
@@ -227,7 +227,7 @@ def add_wind(
         for axis in range(3):
             at[axis, sample] = y[axis, lane_of(sheet.controls[sample], sheet)]
     kernels.blow(wind, at, np.zeros(1, np.int32), gusts, number, 0, time, samples_work)
-    pressure = y.dtype.type(dt * gusts.numbers[number, 16])
+    pressure = y.dtype.type(dt * gusts.numbers[number, COLUMN.pressure])
     for row in range(sheet.rows):
         relative_wind(work, v, wind, sheet, row)
         blow_waves(work, wind, gusts.sines[number], gusts.cosines[number], sheet, row)

@@ -9,7 +9,7 @@ hypothesis (Proc. R. Soc. A 164, 1938).
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,9 +93,42 @@ def _check_finite(name: str, values: object) -> None:
         raise OptionError(f"{name} {shown(values)} must be numbers up to {MAX_PLACE:g} in size")
 
 
-class Gusts(NamedTuple):
-    """W winds on B cloths, as the kernels read them; see `_numbers` for the columns.
+class WindNumbers(NamedTuple):
+    """The numbers of a wind that kernels read: a row of `Gusts.numbers`, in this order.
 
+    speed: of the mean wind [m/s].
+    sine: amplitude of the swell over the mean speed.
+    sine_rate: frequency of the swell [1/s].
+    gusts: amplitude of the gusts [m/s].
+    gust_scale: 1 over the size of a gust [1/m].
+    gust_rate: frequency of the gusts [cells/s].
+    gust_cells: cells before the gusts repeat.
+    pressure: force per area and speed [N s/m³].
+    axes: unit vectors along the wind, level across it, and the third; nine columns, the last.
+    """
+
+    speed: float
+    sine: float
+    sine_rate: float
+    gusts: float
+    gust_scale: float
+    gust_rate: float
+    gust_cells: float
+    pressure: float
+    axes: Sequence[float]
+
+
+COLUMN: Any = WindNumbers._make(range(len(WindNumbers._fields)))
+"""Where each number is in its row: kernels read `numbers[COLUMN.speed]`; `axes` is the first of
+nine columns."""
+COLUMNS: int = COLUMN.axes + 9
+"""How many columns a row has."""
+
+
+class Gusts(NamedTuple):
+    """W winds on B cloths, as the kernels read them.
+
+    numbers: see `WindNumbers`, [W, COLUMNS]. seeds: [W]. phases: [W, B]. origins: [W, 3, B].
     rates, turns: of K waves, [W, K]. sines, cosines: [W, K, N + padding]; see `ripples.Waves`.
     """
 
@@ -110,10 +143,7 @@ class Gusts(NamedTuple):
 
 
 def lower_winds(winds: Sequence[Wind], count: int) -> Gusts:
-    """All winds on `count` cloths as arrays, without waves: [W, 17], [W], [W, B] and [W, 3, B].
-
-    Raises OptionError.
-    """
+    """All winds on `count` cloths as arrays, without waves. Raises OptionError."""
     phases = np.zeros((len(winds), count))
     origins = np.zeros((len(winds), 3, count))
     for number, wind in enumerate(winds):
@@ -124,15 +154,14 @@ def lower_winds(winds: Sequence[Wind], count: int) -> Gusts:
             raise OptionError(
                 f"wind phases and origins must fit {counted(count, 'cloth')}"
             ) from None
-    numbers = np.array([_numbers(wind) for wind in winds]).reshape(len(winds), 17)
+    rows = [[*row[: COLUMN.axes], *row.axes] for row in map(_numbers, winds)]
+    numbers = np.array(rows, float).reshape(len(winds), COLUMNS)
     seeds = np.array([wind.seed & 0xFFFFFFFF for wind in winds], np.uint32)
     none = np.zeros((len(winds), 0))
     return Gusts(numbers, seeds, phases, origins, none, none, none[..., None], none[..., None])
 
 
-def _numbers(wind: Wind) -> list[float]:
-    """Axes (9: along, across, up), speed, sine amplitude and frequency [1/s], gust amplitude,
-    1 / gust size, gust frequency [cells/s], cells before the gusts repeat, pressure."""
+def _numbers(wind: Wind) -> WindNumbers:
     velocity = np.asarray(wind.velocity, float)
     speed = float(np.sqrt((velocity * velocity).sum()))
     sine_frequency = 1.0 / wind.sine_period
@@ -141,8 +170,17 @@ def _numbers(wind: Wind) -> list[float]:
         sine_frequency = max(1, round(wind.period * sine_frequency)) / wind.period
         cells = max(1, round(wind.period * frequency))
         frequency = cells / wind.period
-    gusts = [wind.gusts * speed, 1.0 / wind.gust_size, frequency, cells]
-    return [*_axes(velocity, speed), speed, wind.sine, sine_frequency, *gusts, wind.pressure]
+    return WindNumbers(
+        speed=speed,
+        sine=wind.sine,
+        sine_rate=sine_frequency,
+        gusts=wind.gusts * speed,
+        gust_scale=1.0 / wind.gust_size,
+        gust_rate=frequency,
+        gust_cells=cells,
+        pressure=wind.pressure,
+        axes=_axes(velocity, speed),
+    )
 
 
 def _axes(velocity: Array, speed: float) -> list[float]:

@@ -7,7 +7,7 @@ import pytest
 from numba import njit
 
 from drapery.cloth import Gravity, SolverDesbrun, Wind, grid, kernels, rest_state, simulate
-from drapery.cloth.wind import CROSSWIND, lower_winds
+from drapery.cloth.wind import COLUMN, CROSSWIND, lower_winds
 from drapery.errors import OptionError
 
 
@@ -27,6 +27,24 @@ def velocity(wind, points, time):
 
 
 POINTS = np.random.default_rng(0).uniform(-40, 40, size=(4000, 3))
+
+
+def test_each_number_of_a_wind_is_in_the_column_of_its_name():
+    sizes = {"gusts": 0.4, "gust_size": 2.0, "sine": 0.3, "sine_period": 4.0, "pressure": 0.5}
+    (row,) = lower_winds([Wind((3.0, 0.0, 4.0), **sizes)], 1).numbers
+    assert {name: row[at] for name, at in COLUMN._asdict().items() if name != "axes"} == {
+        "speed": 5.0,
+        "sine": 0.3,
+        "sine_rate": 0.25,
+        "gusts": 2.0,
+        "gust_scale": 0.5,
+        "gust_rate": 2.5,
+        "gust_cells": 4096.0,
+        "pressure": 0.5,
+    }
+    along, across, third = row[COLUMN.axes :].reshape(3, 3)
+    assert along.tolist() == [0.6, 0.0, 0.8]
+    np.testing.assert_allclose(np.cross(along, across), third, atol=1e-15)
 
 
 def test_a_steady_wind_is_its_velocity_everywhere():
