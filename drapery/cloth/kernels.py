@@ -231,12 +231,13 @@ def blow(
     numbers, seed = gusts.numbers[number], gusts.seeds[number]
     phases, origins = gusts.phases[number], gusts.origins[number]
     speed, sine, sine_rate = numbers[COLUMN.speed], numbers[COLUMN.sine], numbers[COLUMN.sine_rate]
-    gust_rate, gust_cells = numbers[COLUMN.gust_rate], numbers[COLUMN.gust_cells]
+    gust_rate, gust_start = numbers[COLUMN.gust_rate], numbers[COLUMN.gust_start]
+    gust_cells = numbers[COLUMN.gust_cells]
     at, swell, drift, first, noise = work[6:9], work[9], work[10], work[11], work[12:15]
     for lane in range(x.shape[1]):
         now = time + phases[np.uintp(start) + np.uintp(lane)]
         swell[lane] = speed * (1 + sine * sine_of_turns(now * sine_rate))
-        cells = now * gust_rate
+        cells = now * gust_rate + gust_start
         cells -= gust_cells * np.floor(cells / gust_cells)
         first[lane] = -np.floor(cells)
         drift[lane] = cells - np.floor(cells)

@@ -24,9 +24,6 @@ from drapery.mesh import Array
 
 __all__ = ["LiveWind", "aim", "make_live_wind"]
 
-LATE = 100.0
-"""A turned wind has at least this time [s], so that its swell keeps its frequency within 2 %."""
-
 rate_of, place_of = kernel(ripple_rate), kernel(ripple_place)
 strength_of = kernel(ripple_strength)
 vortex_rate_of, vortex_place_of = kernel(vortex_rate), kernel(vortex_place)
@@ -39,7 +36,7 @@ class LiveWind(NamedTuple):
     velocity: the free mean wind that the host wants [m/s], [3]. lee: factors of it at the cloth,
     [3]. airflow: added to it at the cloth [m/s], [3]. gravity: without wind [m/s²], [3].
     carried: the part of the wind's velocity that acts beside it [1/s]. gusts, gust_size,
-    sine_period, ripples, vortices: as in `Wind`. ripple_tables: empty without ripples.
+    ripples, vortices: as in `Wind`. ripple_tables: empty without ripples.
     vortex_turns: the phase of the vortices, [1], or none. rest, normal, down: see `resting_frame`.
     """
 
@@ -50,7 +47,6 @@ class LiveWind(NamedTuple):
     carried: float
     gusts: float
     gust_size: float
-    sine_period: float
     ripples: float
     vortices: float
     ripple_tables: RippleTables
@@ -78,7 +74,6 @@ def make_live_wind(
         float(carried),
         float(wind.gusts),
         float(wind.gust_size),
-        float(wind.sine_period),
         float(wind.ripples),
         float(wind.vortices),
         tables if wind.ripples else RippleTables(*(part[:0] for part in tables)),
@@ -93,7 +88,7 @@ def aim(live: Any, wind: Any, gusts: Any, loads: Any) -> Any:
 
     loads: the numbers of the batch, whose gravity changes where a wind carries the cloth.
 
-    Gusts, swell and waves continue where they are: the time of the wind is shifted. Returns 0.
+    Gusts and waves continue where they are, at other rates. Returns 0.
     """
     x = wind.lee[0] * wind.velocity[0] + wind.airflow[0]
     y = wind.lee[1] * wind.velocity[1] + wind.airflow[1]
@@ -103,43 +98,17 @@ def aim(live: Any, wind: Any, gusts: Any, loads: Any) -> Any:
     loads[5] = wind.gravity[2] + wind.carried * z
     speed = np.sqrt(x * x + y * y + z * z)
     numbers, frequency = gusts.numbers[0], speed / wind.gust_size
-    now = later = 0.0
+    now = 0.0
     if live.clock[0] > 0:
-        time = live.clock[0] * live.dt[0]
-        now = time + gusts.phases[0, 0]
-        later = same_gust(now, numbers, frequency)
-        turns = now * numbers[COLUMN.sine_rate]
-        numbers[COLUMN.sine_rate] = swell_frequency(turns, later, 1.0 / wind.sine_period)
-        for lane in range(gusts.phases.shape[1]):
-            gusts.phases[0, lane] = later - time
+        now = live.clock[0] * live.dt[0] + gusts.phases[0, 0]
+        start = numbers[COLUMN.gust_start] + now * numbers[COLUMN.gust_rate] - now * frequency
+        cells = numbers[COLUMN.gust_cells]
+        numbers[COLUMN.gust_start] = start - cells * np.floor(start / cells)
     turn_axes(numbers, x, y, z, speed)
     numbers[COLUMN.speed], numbers[COLUMN.gusts] = speed, wind.gusts * speed
     numbers[COLUMN.gust_rate] = frequency
-    turn_waves(wind, gusts, x, y, z, speed, now, later)
+    turn_waves(wind, gusts, x, y, z, speed, now)
     return 0
-
-
-@kernel
-def same_gust(now: Any, numbers: Any, frequency: Any) -> Any:
-    """A time [s] at which gusts of a frequency are where those of another one are now.
-
-    It is late enough for `swell_frequency`: the gusts repeat.
-    """
-    rate = numbers[COLUMN.gust_rate]
-    if not (rate > 0 and frequency > 0):
-        return now
-    later = now * rate / frequency
-    repeated = numbers[COLUMN.gust_cells] / frequency
-    if later < LATE:
-        later += np.ceil((LATE - later) / repeated) * repeated
-    return later
-
-
-@kernel
-def swell_frequency(turns: Any, later: Any, frequency: Any) -> Any:
-    """The frequency nearest to one [1/s] with which a swell has these turns at a time [s]."""
-    turns -= np.floor(turns)
-    return (turns + np.floor(later * frequency - turns + 0.5)) / later if later > 0 else frequency
 
 
 @kernel
@@ -158,12 +127,10 @@ def turn_axes(numbers: Any, x: Any, y: Any, z: Any, speed: Any) -> None:
 
 
 @kernel
-def turn_waves(
-    wind: Any, gusts: Any, x: Any, y: Any, z: Any, speed: Any, now: Any, later: Any
-) -> None:
+def turn_waves(wind: Any, gusts: Any, x: Any, y: Any, z: Any, speed: Any, now: Any) -> None:
     """The rates of the waves, and their parts at each particle; see `ripples`.
 
-    A wave has the same phase at the time `later` [s] as the old one now.
+    A wave has the same phase now [s] as the old one.
     """
     nx, ny, nz = wind.normal[0], wind.normal[1], wind.normal[2]
     head_on = x * nx + y * ny + z * nz
@@ -184,10 +151,10 @@ def turn_waves(
     for k in range(count):
         table = wind.ripple_tables
         rate = rate_of(speed, table.carried[k], table.forward[k], table.lengths[k])
-        put_rate(gusts, k, rate, now, later)
+        put_rate(gusts, k, rate, now)
     if wind.vortex_turns.size > 0:
         rate = vortex_rate_of(speed, high - low) if high > low else 0.0
-        put_rate(gusts, count, rate, now, later)
+        put_rate(gusts, count, rate, now)
     for i in range(wind.rest.shape[0]):
         along = wind.rest[i, 0] * ax + wind.rest[i, 1] * ay + wind.rest[i, 2] * az
         across = wind.rest[i, 0] * bx + wind.rest[i, 1] * by + wind.rest[i, 2] * bz
@@ -205,9 +172,9 @@ def turn_waves(
 
 
 @kernel
-def put_rate(gusts: Any, k: Any, rate: Any, now: Any, later: Any) -> None:
+def put_rate(gusts: Any, k: Any, rate: Any, now: Any) -> None:
     """The rate of wave k, and the turns with which its phase continues."""
-    turns = gusts.turns[0, k] + now * gusts.rates[0, k] - later * rate
+    turns = gusts.turns[0, k] + now * gusts.rates[0, k] - now * rate
     gusts.turns[0, k] = turns - np.floor(turns)
     gusts.rates[0, k] = rate
 

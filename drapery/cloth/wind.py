@@ -102,6 +102,7 @@ class WindNumbers(NamedTuple):
     gusts: amplitude of the gusts [m/s].
     gust_scale: 1 over the size of a gust [1/m].
     gust_rate: frequency of the gusts [cells/s].
+    gust_start: place of the gusts at time 0 [cells]; a page that turns the wind moves it.
     gust_cells: cells before the gusts repeat.
     pressure: force per area and speed [N s/m³].
     axes: unit vectors along the wind, level across it, and the third; nine columns, the last.
@@ -113,6 +114,7 @@ class WindNumbers(NamedTuple):
     gusts: float
     gust_scale: float
     gust_rate: float
+    gust_start: float
     gust_cells: float
     pressure: float
     axes: Sequence[float]
@@ -177,6 +179,7 @@ def _numbers(wind: Wind) -> WindNumbers:
         gusts=wind.gusts * speed,
         gust_scale=1.0 / wind.gust_size,
         gust_rate=frequency,
+        gust_start=0.0,
         gust_cells=cells,
         pressure=wind.pressure,
         axes=_axes(velocity, speed),

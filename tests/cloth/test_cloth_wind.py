@@ -39,6 +39,7 @@ def test_each_number_of_a_wind_is_in_the_column_of_its_name():
         "gusts": 2.0,
         "gust_scale": 0.5,
         "gust_rate": 2.5,
+        "gust_start": 0.0,
         "gust_cells": 4096.0,
         "pressure": 0.5,
     }
