@@ -99,6 +99,7 @@ def test_each_command_that_is_typed_by_hand_stands_on_a_page() -> None:
     assert [each for each in BY_HAND if not any(t.startswith(f"{each} ") for t in typed)] == []
 
 
+@pytest.mark.slow
 def test_the_golden_test_of_the_guide_passes_after_its_update(
     reader: Reader, untraced_processes: None
 ) -> None:

@@ -36,7 +36,7 @@ def sheet(tmp_path: Path) -> Callable[[str], Path]:
 def test_a_kind_that_its_texture_does_not_show_is_said(
     kind: str, sheet: Callable[[str], Path]
 ) -> None:
-    small = {"kind": kind, "size": (24, 24)}
+    small = {"kind": kind, "size": (24, 24)} | ({"time": 0.5} if kind == "cape" else {})
     with pytest.warns(UserWarning, match=f"its part for kind {kind}, from ") as caught:
         frame = draw(texture=sheet(OTHER[kind]), **small)  # type: ignore[arg-type]
     assert not frame.pixels[..., 3].any() and len(caught) == 1

@@ -30,7 +30,7 @@ def editable(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return installed(tmp_path_factory.mktemp("editable"), *words)
 
 
-@pytest.fixture(params=["wheel", "editable"])
+@pytest.fixture(params=[pytest.param("wheel", marks=pytest.mark.slow), "editable"])
 def python(request: pytest.FixtureRequest) -> Path:
     found: Path = request.getfixturevalue(request.param)
     return found

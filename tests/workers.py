@@ -2,7 +2,7 @@
 
 A run of single files, or of tests chosen by name, needs no other process; `-m quick` takes two, and
 `-n` says another number. Tests of pages run apart, with `-m page`, and so do slow ones, with
-`-m slow`: browsers, WebAssembly and one test in four hundred take two fifths of the time.
+`-m slow`: browsers, WebAssembly and one test in three hundred take two fifths of the time.
 """
 
 import os

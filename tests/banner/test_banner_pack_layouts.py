@@ -3,6 +3,7 @@
 import json
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -258,6 +259,8 @@ def back_sheet(colour: int) -> bytes:
     return png(np.full((32, 64, 4), (colour, 0, 0, 255), np.uint8))
 
 
+SHORT: dict[str, dict[str, Any]] = {"cape": {"time": 0.5}, "elytra": {}}
+"""A cape's cloth moves before its picture."""
 OLD_WINGS, NEW_WINGS = ENTITY + "elytra.png", ENTITY + "equipment/wings/elytra.png"
 
 
@@ -281,6 +284,7 @@ def test_wings_and_capes_wear_the_packs_elytra(
         format=format,
         light="flat",
         size=(30, 40),
+        **SHORT[kind],
     ).pixels
     assert set(np.unique(pixels[pixels[..., 3] > 0, 0])) == {seen}
 
@@ -293,7 +297,8 @@ def test_sheets_of_wings_of_any_size_are_drawn(
     sheet = png(np.full((*size, 4), (90, 0, 0, 255), np.uint8))
     path = folder_pack(tmp_path, {NEW_WINGS: sheet})
     assert describe_packs([path])[0].problems == ()
-    pixels = draw(kind=kind, packs=path, light="flat", size=(30, 40)).pixels  # type: ignore[arg-type]
+    small = {"kind": kind, "packs": path, "light": "flat", "size": (30, 40)} | SHORT[kind]
+    pixels = draw(**small).pixels  # type: ignore[arg-type]
     assert set(np.unique(pixels[pixels[..., 3] > 0, 0])) == {90}
 
 

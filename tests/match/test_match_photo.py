@@ -51,6 +51,7 @@ def test_corners_are_found_before_one_colour() -> None:
     assert np.abs(np.array(found) - CORNERS).max() < 3
 
 
+@pytest.mark.slow
 def test_a_design_is_found_in_unknown_light_that_changes() -> None:
     wanted = Banner.parse("white stripe_top:black triangle_top:orange circle:purple")
     y, x = np.mgrid[:200, :160]

@@ -52,6 +52,7 @@ def crossings(one: Cloth, places: Array, other: Cloth, others: Array) -> int:
     return int((apart & (abs(sides.sum(axis=0)) == 3)).sum())
 
 
+@pytest.mark.slow
 def test_the_flags_of_the_scene_pass_through_nothing() -> None:
     packs, shapes, clip = open_packs(()), ((3, 5), (5, 9), (7, 13)), Clip((64, 64), 80, 20.0)
     flags = [

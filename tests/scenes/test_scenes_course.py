@@ -134,7 +134,7 @@ def test_a_script_is_read_from_a_file(tmp_path) -> None:
         read_script(str(file))
 
 
-@pytest.mark.parametrize("on", ["beetle", "fox"])
+@pytest.mark.parametrize("on", [pytest.param("beetle", marks=pytest.mark.slow), "fox"])
 def test_falling_cloth_drapes_and_never_goes_through(on) -> None:
     dressed = freefall.falling(freefall.FreefallParameters(grid=(14, 14)))
     sewn = dressed.cloths[("beetle", "fox").index(on)]

@@ -11,6 +11,7 @@ from drapery.testing.golden import LAYERS_KEY
 CASES = """
 [defaults]
 size = "32x40"
+time = 0.5
 
 [[case]]
 name = "cape"
@@ -141,6 +142,7 @@ packs = ["no-such-pack"]
 name = "second"
 design = "blue"
 size = "32x40"
+time = 0.5
 """
 
 

@@ -22,6 +22,7 @@ def test_creeper(golden):
     golden(draw(banner, packs=["pack"], size=(96, 128)), banner=banner, packs=["pack"])
 """
 
+pytestmark = pytest.mark.slow
 Pytest = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -108,7 +109,6 @@ HARMS: dict[str, tuple[bytes | str | tuple[int, int], str]] = {
 }
 
 
-@pytest.mark.slow
 def test_harmed_and_unused_goldens_are_named_by_workers_in_one_report(
     outside: tuple[Path, Pytest],
 ) -> None:
