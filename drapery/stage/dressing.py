@@ -34,7 +34,7 @@ from drapery.mesh import Array
 from drapery.render.scene import Model, RiggedModel, Scene
 from drapery.settings import Settings
 from drapery.stage.bodies import STEP, with_finish
-from drapery.stage.forces import in_wind, wind_of
+from drapery.stage.forces import in_wind, wind_of, wind_on_wearer
 from drapery.stage.layered import common_bones, joint_contact, meet_each_other
 from drapery.stage.recording import Drape, Meeting, Schedule, record
 from drapery.stage.staging import Staging
@@ -193,12 +193,10 @@ class Dressed:
         return (*in_wind(sewn.cloth, self.wind(period)), *self.settings.forces)
 
     def wind(self, period: float | None) -> Wind:
-        """The wind in the garment's own frame. On a wearer it has no eddies of a pole."""
-        wind, who = wind_of(self.settings, period), self.garment.wearer
-        if who is None or isinstance(self.settings.wind, Wind):
-            return wind
-        x, y, z = wind.velocity
-        return replace(wind, velocity=(x, y, z - who.speed), ripples=0.0, vortices=0.0)
+        """The wind in the garment's own frame."""
+        if self.garment.wearer is None:
+            return wind_of(self.settings, period)
+        return wind_on_wearer(self.settings, self.garment.wearer.speed, period)
 
     def drape(self, sewn: SewnCloth) -> Drape:
         """A cloth in the wind, with what it meets beside other garments."""

@@ -62,6 +62,20 @@ def wind_of(settings: Settings, period: float | None = None) -> Wind:
     )
 
 
+def wind_on_wearer(settings: Settings, speed: float, period: float | None = None) -> Wind:
+    """The wind of the settings in the frame of a wearer, which sheds no eddies of a pole.
+
+    settings: the options of the picture; a Wind of theirs stays as it is.
+    speed: at which the wearer walks to its front [m/s].
+    period: see `wind_of`.
+    """
+    wind = wind_of(settings, period)
+    if isinstance(settings.wind, Wind):
+        return wind
+    x, y, z = wind.velocity
+    return replace(wind, velocity=(x, y, z - speed), ripples=0.0, vortices=0.0)
+
+
 def _ripple_share(fabric: str | Fabric) -> float:
     """The ripples on a fabric over those on wool, 1 for heavier ones.
 
