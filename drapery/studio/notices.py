@@ -7,6 +7,7 @@ from typing import Literal, TypeVar
 from nicegui import Client, run, ui
 
 from drapery import DraperyError
+from drapery.studio.line_icons import LINES
 from drapery.studio.translation import translated
 
 T = TypeVar("T")
@@ -29,6 +30,7 @@ def show_notice(line: str, tone: Tone = "done") -> None:
     ui.notify(
         translated(line),
         type=kind,
+        icon=LINES[tone],
         position="top",
         timeout=timeout,
         attrs={"role": "status" if tone == "done" else "alert"},

@@ -17,6 +17,7 @@ from drapery.banner import parse_banner
 from drapery.studio.art import face_files
 from drapery.studio.components import add_first_view, editor_part, viewer_address
 from drapery.studio.descriptions import described
+from drapery.studio.line_icons import line_icon
 from drapery.studio.notices import show_notice
 from drapery.studio.panels import bar, shortcuts
 from drapery.studio.played import known_kernels
@@ -35,41 +36,39 @@ Group = Literal["Design", "Bring in", "Get out", "Library"]
 class PagePanel:
     """One part of the page.
 
-    name: of its module in `panels/`, and part of the ids of its elements. part: of the editor,
-    instead of a module. title: the text of
-    its heading and tab. icon: the tab's icon, a name in Material Icons. place: panels `left` of and
-    `under` the viewport are always visible in a wide window; panels at the `side` share one place,
-    with tabs. On a phone every panel except the viewport and the palette is a tab. group: of
-    the tab; a panel without one has no tab.
+    name: of its module in `panels/`, of its tab's icon, and part of the ids of its elements. part:
+    of the editor, instead of a module. title: the text of its heading and tab. place: panels
+    `left` of and `under` the viewport are always visible in a wide window; panels at the `side`
+    share one place, with tabs. On a phone every panel except the viewport and the palette is a
+    tab. group: of the tab; a panel without one has no tab.
     """
 
     name: str
     title: str
-    icon: str
     place: Place
     group: Group | None = None
     part: str = ""
 
 
 PANELS = (
-    PagePanel("palette", "Dyes", "palette", "left", part="dyes"),
-    PagePanel("layers", "Layers", "layers", "left", "Design"),
-    PagePanel("live", "Live", "air", "viewport"),
-    PagePanel("face", "Flat", "crop_portrait", "viewport"),
-    PagePanel("steps", "History", "history", "under", "Design", "steps"),
-    PagePanel("motion", "Motion", "tune", "under", "Design"),
-    PagePanel("patterns", "Patterns", "grid_view", "side", "Design"),
-    PagePanel("styles", "Styles", "style", "side", "Design"),
-    PagePanel("letters", "Letters", "abc", "side", "Design"),
-    PagePanel("text", "Text", "code", "side", "Bring in"),
-    PagePanel("picture", "Picture", "image_search", "side", "Bring in"),
-    PagePanel("packs", "Packs", "inventory_2", "side", "Bring in"),
-    PagePanel("export", "Export", "ios_share", "side", "Get out"),
-    PagePanel("embed", "Embed", "share", "side", "Get out"),
-    PagePanel("loom", "Loom", "handyman", "side", "Get out"),
-    PagePanel("library", "Library", "collections_bookmark", "side", "Library"),
-    PagePanel("start", "Start", "auto_awesome", "side", "Library"),
-    PagePanel("compare", "Compare", "compare", "side", "Library"),
+    PagePanel("palette", "Dyes", "left", part="dyes"),
+    PagePanel("layers", "Layers", "left", "Design"),
+    PagePanel("live", "Live", "viewport"),
+    PagePanel("face", "Flat", "viewport"),
+    PagePanel("steps", "History", "under", "Design", "steps"),
+    PagePanel("motion", "Motion", "under", "Design"),
+    PagePanel("patterns", "Patterns", "side", "Design"),
+    PagePanel("styles", "Styles", "side", "Design"),
+    PagePanel("letters", "Letters", "side", "Design"),
+    PagePanel("text", "Text", "side", "Bring in"),
+    PagePanel("picture", "Picture", "side", "Bring in"),
+    PagePanel("packs", "Packs", "side", "Bring in"),
+    PagePanel("export", "Export", "side", "Get out"),
+    PagePanel("embed", "Embed", "side", "Get out"),
+    PagePanel("loom", "Loom", "side", "Get out"),
+    PagePanel("library", "Library", "side", "Library"),
+    PagePanel("start", "Start", "side", "Library"),
+    PagePanel("compare", "Compare", "side", "Library"),
 )
 
 FIRST_TAB = "patterns"
@@ -258,7 +257,7 @@ def _tab_list(name: str, label: str) -> Element:
 
 def _tab_of(panel: PagePanel) -> None:
     is_first = panel.name == FIRST_TAB
-    tab = _tab(f"tab-{panel.name}", f"panel-{panel.name}", panel.title, is_first, panel.icon)
+    tab = _tab(f"tab-{panel.name}", f"panel-{panel.name}", panel.title, is_first, panel.name)
     tab.classes(f"tab tab-{panel.place}").props["data-panel"] = panel.name
 
 
@@ -268,6 +267,6 @@ def _tab(identity: str, controls: str, title: str, chosen: bool, icon: str = "")
     tab.props["aria-selected"] = str(chosen).lower()
     with tab:
         if icon:
-            ui.icon(icon).props('aria-hidden="true"')
+            line_icon(icon)
         translated_text(title).classes("tab-title")
     return tab

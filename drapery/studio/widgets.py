@@ -8,6 +8,7 @@ from nicegui import ui
 from nicegui.element import Element
 from nicegui.events import GenericEventArguments
 
+from drapery.studio.line_icons import line_icon
 from drapery.studio.notices import errors_shown
 from drapery.studio.translation import translated
 
@@ -37,7 +38,7 @@ def button(
     element.props.update({"aria-label": label, "title": f"{label} ({key})" if key else label})
     with element:
         if icon:
-            ui.icon(icon).props("aria-hidden=true")
+            line_icon(icon)
         if text:
             translated_text(text)
     return element if press is None else on(element, "click", lambda _: press())

@@ -2,6 +2,7 @@
 
 import base64
 import io
+import re
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,8 @@ from drapery import Banner, Layer
 from drapery.banner import DYE_NAMES, PATTERN_NAMES, crafting_items
 from drapery.packs import MemoryPack, open_packs
 from drapery.studio.icons import icon_address, own_icon
+from drapery.studio.line_icons import LINES
+from drapery.studio.page import PANELS
 
 
 def test_every_item_of_every_pattern_has_an_icon_of_its_own_kind() -> None:
@@ -47,3 +50,10 @@ def test_a_damaged_or_large_item_of_a_pack_is_no_fault(tmp_path: Path) -> None:
     assert icon_address("stick", packs) == icon_address("stick", open_packs(()))
     data = base64.b64decode(icon_address("paper", packs).partition(",")[2])
     assert Image.open(io.BytesIO(data)).size == (64, 64)
+
+
+def test_every_tab_has_a_picture_of_lines() -> None:
+    tabs = {panel.name for panel in PANELS if panel.group}
+    assert tabs | {"fault", "warning", "done"} < {*LINES}
+    assert all(re.fullmatch(r"M[-\dMHVChvlacsz .]+", path) for path in LINES.values())
+    assert len({*LINES.values()}) == len(LINES)

@@ -247,6 +247,19 @@ def test_the_text_is_copied_by_one_click(page: Any) -> None:
     assert page.execute_async_script(read) == written(page)
 
 
+def test_the_page_loads_no_font(page: Any) -> None:
+    """Its icons are pictures of lines; the font of icons alone has 129 kB."""
+    tabs = page.find_elements(By.CSS_SELECTOR, ".tab[data-panel]")
+    for tab in tabs:
+        page.execute_script("studio.tab(arguments[0])", tab.get_attribute("data-panel"))
+    paste(page, "white creeper:mauve")
+    wait_until(lambda: notices(page))
+    loaded = "return performance.getEntriesByType('resource').map((each) => each.name)"
+    assert not [each for each in page.execute_script(loaded) if "woff" in each]
+    assert not page.find_elements(By.CSS_SELECTOR, ".material-icons, .q-icon:empty")
+    assert len(page.find_elements(By.CSS_SELECTOR, ".tab .q-icon path")) == len(tabs)
+
+
 def test_the_loom_stops_at_six_and_says_what_is_needed(page: Any) -> None:
     # Soft edges show through a second layer of the same pattern; a whole field hides all below.
     paste(page, "white " + "creeper:lime base:black " * 3 + "flower:red")

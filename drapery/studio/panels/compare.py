@@ -52,7 +52,7 @@ def build(session: Session) -> None:
         return VersusSlider(described(other))
 
     with ui.element("div").classes("line"):
-        button("Keep this design to compare with", keep, icon="push_pin", text="Keep this design")
+        button("Keep this design to compare with", keep, icon="pin", text="Keep this design")
     field = Fields(session).choice("Compare with", {}, current, choose)
     sliders: KeptElements[VersusSlider] = KeptElements(ui.element("div"))
 

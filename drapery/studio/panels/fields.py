@@ -181,7 +181,7 @@ def copy_field(name: str, label: str, rows: int) -> Callable[[str], None]:
     with ui.element("div").classes("copy"):
         with ui.element("div").classes("copy-head"):
             text_element(label, "h3")
-            press = button(translated("Copy: {label}").format(label=label), icon="content_copy")
+            press = button(translated("Copy: {label}").format(label=label), icon="copy")
             with press:
                 translated_text("Copy").classes("copy-label")
             press.props.update({"data-copy": name})

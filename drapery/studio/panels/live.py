@@ -65,7 +65,7 @@ def build(session: Session) -> None:
             titles = {str(name): view_title(str(name)) for name in OPTIONS["view"].choices}
             views = SegmentedControl("View", titles, choose_view)
             paused = button("Pause", pause, icon="pause")
-            button("Back to rest", viewport.reset, icon="restart_alt")
+            button("Back to rest", viewport.reset, icon="rest")
             scenes = fields.choice(
                 "Scene",
                 {"": OWN},

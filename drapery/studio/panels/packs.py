@@ -166,8 +166,8 @@ def _row(session: Session, entry: PackEntry) -> None:
     on(switch, "change", lambda _: act(lambda: pack_store.switch(entry.number)))
     _name(entry.title, entry.name, entry.contents.summary, entry.contents.warnings)
     acts: tuple[tuple[str, str, Callable[[], None]], ...] = (
-        ("arrow_upward", "Higher: {name}", lambda: pack_store.move(entry.number, 1)),
-        ("arrow_downward", "Lower: {name}", lambda: pack_store.move(entry.number, -1)),
+        ("up", "Higher: {name}", lambda: pack_store.move(entry.number, 1)),
+        ("down", "Lower: {name}", lambda: pack_store.move(entry.number, -1)),
         ("close", "Remove: {name}", lambda: pack_store.remove(entry.number)),
     )
     for place, (icon, text, call) in enumerate(acts, 1):

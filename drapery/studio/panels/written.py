@@ -76,7 +76,7 @@ def build_writer(session: Session) -> None:
                 lambda on: change(json_text=bool(on)),
             )
     with ui.element("div").classes("line"):
-        copy = button("Copy the text", icon="content_copy").classes("primary")
+        copy = button("Copy the text", icon="copy").classes("primary")
         with copy:
             translated_text("Copy").classes("copy-label")
     copy.props('data-copy="written"')
