@@ -5,16 +5,14 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drapery.arrays import Pixels, Words
 from drapery.errors import OptionError
 from drapery.render.buffers import Buffers
 from drapery.render.flatten import lay_over
 from drapery.styles.colours import as_pixels
+from drapery.styles.large_pixels import typical_places
 
-PLACES = 3
-"""Places across a large pixel, and down it, of which it shows one."""
 ROWS, MAX_LARGE = 85, 32
 """Large pixels from top to bottom of a picture, and their largest side [pixels]."""
 VISIBLE, OPAQUE = np.uint32(1 << 24), np.uint32(255 << 24)
@@ -78,37 +76,13 @@ class Canvas:
         size: [pixels]; 0 uses `large_pixel`. What lies in the place goes with its colour.
         """
         size = size or large_pixel(-(-self.pixels.shape[0] // self.grid))
-        at = self._typical(size * self.grid)
+        at = typical_places(self.pixels, size * self.grid)
 
         def make_buffers() -> Buffers:
             every = (getattr(self.buffers, each.name) for each in fields(Buffers))
             return Buffers(*(values[at] for values in every))
 
         return Canvas(self.pixels[at], make_buffers, 1, size * self.pixel, self.corner)
-
-    def _typical(self, step: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Row and column of the place that each square of `step` x `step` pixels shows.
-
-        Most places in a square show as much, and are least apart in colour from the others.
-        """
-        each = min(PLACES, step)
-        rows, columns = (_places(side, step, each) for side in self.pixels.shape[:2])
-        found = self.pixels[np.ix_(rows.reshape(-1), columns.reshape(-1))].astype(np.int32)
-        across = len(columns)
-        cells = found.reshape(len(rows), each, across, each, 4).swapaxes(1, 2)
-        cells = cells.reshape(len(rows) * across, each * each, 4)
-        cells[..., :3] *= cells[..., 3:] > 0
-        middle = each * each // 2
-        best = np.full(len(cells), middle)
-        (mixed,) = np.nonzero((cells != cells[:, :1]).any(axis=(1, 2)))
-        apart = cells[mixed, :, None] - cells[mixed, None]
-        costs = (apart * apart * np.array([2, 4, 3, 9])).sum(axis=-1)
-        # Whole 256ths of levels, which add up to the same in any order; the middle wins if equal.
-        costs = np.sqrt(costs * 65536.0).astype(np.int64).sum(axis=-1)
-        costs[:, middle] -= 1
-        best[mixed] = np.argmin(costs, axis=-1)
-        row, column = (best // each).reshape(-1, across), (best % each).reshape(-1, across)
-        return rows[np.arange(len(rows))[:, None], row], columns[np.arange(across)[None], column]
 
     def finished(self, size: tuple[int, int]) -> Pixels:
         """The picture of this width and height: averaged over `grid`, then enlarged."""
@@ -121,14 +95,6 @@ class Canvas:
 def large_pixel(height: int) -> int:
     """The side of a large pixel in a picture of this height, both [pixels]."""
     return min(MAX_LARGE, max(2, (height + ROWS // 2) // ROWS))
-
-
-def _places(side: int, step: int, each: int) -> NDArray[np.intp]:
-    """`each` places along every `step` pixels of a side, evenly, shape [squares, each]."""
-    first = np.arange(-(-side // step), dtype=np.intp)[:, None] * step
-    inside: NDArray[np.intp] = (2 * np.arange(each, dtype=np.intp) + 1) * step // (2 * each)
-    places: NDArray[np.intp] = np.minimum(first + inside, side - 1)
-    return places
 
 
 def laid_over(words: Words, behind: Words) -> Words:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from drapery.arrays import Pixels, Words
+from drapery.arrays import Pixels, Vectors, Words
 from drapery.elementary import cos, sin
 from drapery.render.buffers import BACKGROUND, Buffers
 from drapery.styles.canvas import Canvas, laid_over
@@ -39,6 +39,7 @@ ENDED = 0.86
 """So dark are places in which strokes of paper end."""
 
 
+@costs(8)
 def shade(
     canvas: Canvas,
     *,
@@ -47,10 +48,15 @@ def shade(
     brightest: Annotated[float, Field(ge=0, le=1, description="brightness of the brightest")] = 1.0,
     azimuth: Annotated[float, Field(ge=-180, le=180, description="of the light [degrees]")] = -55,
     elevation: Annotated[float, Field(ge=-90, le=90, description="of the light [degrees]")] = 40,
+    around: Annotated[
+        int, Field(ge=0, le=3, description="samples to each side that count too")
+    ] = 0,
 ) -> Canvas:
     """Cel shading: light from one side in a few steps. Use it with `light = "flat"`.
 
-    The light stands at an azimuth from the front, to the viewer's right if positive.
+    The light stands at an azimuth from the front, to the viewer's right if positive. With `around`
+    a pixel has the middle step of its model's pixels in the square around it: there are no specks,
+    and the narrow side of thick cloth has the step of the cloth beside it.
     """
     from drapery.styles.kernels import cel
 
@@ -60,7 +66,10 @@ def shade(
     factors = darkest + (brightest - darkest) * (np.arange(bands, dtype=np.float32) / (bands - 1))
     table = np.rint(np.arange(256) * factors[:, None].astype(np.float64)).astype(np.uint8)
     drawn, found = canvas.words(), canvas.buffers
-    cel(drawn, found.normal, found.model, light, bands, table)
+    normal = found.normal
+    if around:
+        normal = _middle_normals(normal, found.model, light, bands, around)
+    cel(drawn, normal, found.model, light, bands, table)
     return canvas.painted(as_pixels(drawn))
 
 
@@ -228,6 +237,36 @@ def paper(
     """Paper behind what is drawn, plain or ruled in squares."""
     behind = _sheet_of_paper(canvas.pixels.shape[:2], canvas.grid, colour, lines, spacing, grain)
     return canvas.painted(as_pixels(laid_over(canvas.words(), behind)))
+
+
+def _middle_normals(
+    normal: Vectors, model: NDArray[np.int32], light: NDArray[np.float32], bands: int, reach: int
+) -> Vectors:
+    """Vectors along the light whose band is the median of those around; see `kernels.cel`."""
+    facing = (normal[..., 0] * light[0] + normal[..., 1] * light[1]) + normal[..., 2] * light[2]
+    own = np.clip(np.floor((facing - light[3]) / light[4] * bands), 0, bands - 1).astype(np.uint8)
+    middle = _middle_bands(own, model, reach)
+    cosine = light[3] + (middle + np.float32(0.5)) / bands * light[4]
+    along: Vectors = (cosine[..., None] * light[:3]).astype(np.float32)
+    return along
+
+
+def _middle_bands(bands: NDArray[np.uint8], model: NDArray[np.int32], reach: int) -> Pixels:
+    """The median in the square around each place of what its model has there, shape [H, W].
+
+    Each place counts itself by half, so that what lies beside a straight edge outweighs it.
+    """
+    height, width = model.shape
+    models, framed = np.pad(model, reach, constant_values=BACKGROUND), np.pad(bands, reach)
+    counts = np.zeros((int(bands.max(initial=0)) + 1, height, width), np.uint8)
+    for row in range(2 * reach + 1):
+        for column in range(2 * reach + 1):
+            at = slice(row, row + height), slice(column, column + width)
+            own, weight = models[at] == model, 1 if row == column == reach else 2
+            for band, count in enumerate(counts):
+                count += weight * (own & (framed[at] <= band)).view(np.uint8)
+    middle: Pixels = np.argmax(2 * counts >= counts[-1], axis=0).astype(np.uint8)
+    return middle
 
 
 def _own_words(canvas: Canvas) -> Words:

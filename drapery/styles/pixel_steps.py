@@ -46,6 +46,19 @@ def pixels(
     return canvas if canvas.pixel > 1 and not size else canvas.coarse(size)
 
 
+@costs(2)
+def opacity(
+    canvas: Canvas,
+    *,
+    levels: Annotated[int, Field(ge=1, le=16, description="over invisible")] = 4,
+) -> Canvas:
+    """Few levels of opacity: a soft shadow becomes as many clear tones, with edges."""
+    drawn = canvas.pixels.copy()
+    steps = (drawn[..., 3].astype(np.int32) * (2 * levels) + 255) // 510
+    drawn[..., 3] = steps * 255 // levels
+    return canvas.painted(drawn)
+
+
 @costs(16)
 @over_time
 def limit(

@@ -35,6 +35,7 @@ _FUNCTIONS: dict[StepKind, tuple[StepFunction, ...]] = {
     ),
     "picture": (
         pixel_steps.pixels,
+        pixel_steps.opacity,
         pixel_steps.limit,
         pixel_steps.clean,
         pixel_steps.steady,

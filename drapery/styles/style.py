@@ -20,9 +20,10 @@ from drapery.render.identity_cache import IdentityCache
 from drapery.render.scene import Material, Scene
 from drapery.settings import Lighting, Options, Settings
 from drapery.style.piece import Piece
-from drapery.styles.canvas import PLACES, Canvas, laid_over, large_pixel
+from drapery.styles.canvas import Canvas, laid_over, large_pixel
 from drapery.styles.chain import chain_fault, makes_pixels
 from drapery.styles.colours import as_pixels
+from drapery.styles.large_pixels import PLACES
 from drapery.styles.step import StepKind, StyleStep, as_toml, parameter_lines
 
 CLEAR = (0, 0, 0, 0)

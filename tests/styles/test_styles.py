@@ -581,6 +581,45 @@ def test_a_large_pixel_shows_what_most_of_it_shows_with_all_that_lies_there() ->
     assert drawn.buffers.depth.tolist() == [[7, 3]]
 
 
+@pytest.mark.parametrize("begin", range(6, 12))
+@pytest.mark.parametrize("width", [2, 3, 4])
+@pytest.mark.parametrize("upright", [True, False])
+def test_a_line_as_thin_as_a_large_pixel_is_one_wide(begin: int, width: int, upright: bool) -> None:
+    places = np.full((18, 18), 9)
+    places[:, begin : begin + width] = 200
+    given = flat_canvas((places if upright else places.T).tolist())
+    drawn = STEPS["picture"]["pixels"](given, size=3).pixels[..., 0]
+    assert ((drawn if upright else drawn.T) == 200).sum(axis=1).tolist() == [1] * 6
+
+
+def test_no_large_pixel_sticks_out_alone_but_the_end_of_a_pole_stays() -> None:
+    shown = np.array([[0] * 5, [0, 1, 0, 0, 0], [0, 1, 0, 1, 0], [1] * 5, [1] * 5])
+    fine = shown.repeat(3, axis=0).repeat(3, axis=1)
+    fine[8, 11] = 0
+    given = flat_canvas(fine.tolist())
+    given.pixels[..., 3] *= fine.astype(np.uint8)
+    drawn = STEPS["picture"]["pixels"](given, size=3).pixels[..., 3] > 0
+    shown[2, 3] = 0
+    assert drawn.astype(int).tolist() == shown.tolist()
+
+
+def test_a_speck_has_the_tone_around_it() -> None:
+    given = flat_canvas([[200] * 5] * 5)
+    given.buffers.normal[...] = (0, 0, 1)
+    given.buffers.normal[2, 2] = given.buffers.normal[4] = (0, -1, 0)
+    one, even = (STEPS["picture"]["shade"](given, around=around).pixels for around in (0, 1))
+    assert (one[2, 2] != one[1, 1]).any() and (one[4] != one[1]).any()
+    assert (even == one[1, 1]).all()
+
+
+def test_a_soft_shadow_has_few_tones() -> None:
+    given = flat_canvas([[9] * 256])
+    given.pixels[..., 3] = np.arange(256)
+    drawn = STEPS["picture"]["opacity"](given, levels=2).pixels
+    assert np.unique(drawn[..., 3]).tolist() == [0, 127, 255]
+    assert drawn[0, [63, 64, 191, 192], 3].tolist() == [0, 127, 127, 255]
+
+
 @pytest.mark.parametrize(("height", "side"), [(48, 2), (128, 2), (256, 3), (512, 6), (1080, 13)])
 def test_large_pixels_grow_with_the_picture(height: int, side: int) -> None:
     given = Canvas(np.zeros((height, 12, 4), np.uint8), no_buffers)
