@@ -39,7 +39,7 @@ from drapery.cloth.solvers.driver import (
 )
 from drapery.cloth.strain import allowed_stretch, strain_limit
 from drapery.errors import counted
-from drapery.jit import entry_point, kernel
+from drapery.jit import borrowing_kernel, entry_point, kernel
 from drapery.mesh import Array
 
 MAX_ITERATIONS = 10_000
@@ -119,7 +119,7 @@ class SolverImplicit(KernelSolver):
         )
 
 
-@kernel
+@borrowing_kernel
 def linearise(blocks: Any, b: Any, y: Any, u: Any, springs: Any, damping: Any, h: Any) -> None:
     """Compute each spring's part of the matrix, and add its part of the right-hand side to b.
 
@@ -148,7 +148,7 @@ def linearise(blocks: Any, b: Any, y: Any, u: Any, springs: Any, damping: Any, h
             pull_together(b, i, j, lane, fx, fy, fz)
 
 
-@kernel
+@borrowing_kernel
 def pull_together(x: Any, i: Any, j: Any, lane: Any, fx: Any, fy: Any, fz: Any) -> None:
     """Add a force to one end of a spring and its opposite to the other end."""
     store(x, i, lane, load(x, i, lane) + fx)
@@ -159,7 +159,7 @@ def pull_together(x: Any, i: Any, j: Any, lane: Any, fx: Any, fy: Any, fz: Any) 
     store(x, j + 2, lane, load(x, j + 2, lane) - fz)
 
 
-@kernel
+@borrowing_kernel
 def diagonal(out: Any, matrix: Any) -> None:
     """Inverses of the matrix's diagonal, the preconditioner; 0 where a particle is pinned."""
     mass, blocks, springs, bends = matrix.mass, matrix.blocks, matrix.springs, matrix.bends
@@ -190,7 +190,7 @@ def diagonal(out: Any, matrix: Any) -> None:
                 out[row, lane] = one / out[row, lane]
 
 
-@kernel
+@borrowing_kernel
 def multiply(out: Any, p: Any, matrix: Any) -> None:
     """out = A p, without pinned rows."""
     mass, blocks, springs = matrix.mass, matrix.blocks, matrix.springs
@@ -211,7 +211,7 @@ def multiply(out: Any, p: Any, matrix: Any) -> None:
     clear_pins(out, mass)
 
 
-@kernel
+@borrowing_kernel
 def add_bending(out: Any, p: Any, matrix: Any) -> None:
     """out += the bending part of A p."""
     bends = matrix.bends
@@ -226,7 +226,7 @@ def add_bending(out: Any, p: Any, matrix: Any) -> None:
             kernels.add(out, d, lane, matrix.factor * bends.parts[s, 3], px, py, pz)
 
 
-@kernel
+@borrowing_kernel
 def clear_pins(values: Any, mass: Any) -> None:
     """The constraint filter: set the rows of pinned particles to 0."""
     none = values.dtype.type(0)
@@ -236,7 +236,7 @@ def clear_pins(values: Any, mass: Any) -> None:
                 values[row, lane] = none
 
 
-@kernel
+@borrowing_kernel
 def dots(out: Any, p: Any, weight: Any, q: Any) -> None:
     """For each lane the sum of p weight q in the order of rows, in double precision, [L]."""
     for lane in range(out.size):
