@@ -25,8 +25,8 @@ from drapery.errors import OptionError
 from drapery.mesh import Array
 
 BESIDE = 0.5
-"""Cloth so thick that its cells beside a pin cannot reach its distance from a box at rest, and
-would be torn from the pin, keeps the distance of the pin and this part of a cell."""
+"""Cloth keeps at most the distance of a pin from a box at rest and this part of the cell beside the
+pin. A cell could reach farther, but it would stand off, and a row of them would be torn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class Collisions:
 
     colliders: applied one after another; where two overlap, the last one decides.
     thickness: of the cloth [m]; particles stay half of it away from every collider. Cloth that is
-        much thicker than the cells beside its pins stays less far from boxes at rest.
+        thicker than the cells beside its pins stays less far from boxes at rest.
     order: how finely faces are tested, 1 to 16, see `sample_points`.
     apart: least distance between parts of the cloth itself [m], such as its thickness; None lets it
         pass through itself. Cloths that `sew` joins without seams meet each other.
@@ -112,7 +112,7 @@ def _radius_at_pins(cloth: Cloth, collisions: Collisions) -> float:
     ]
     outside = np.concatenate([[np.inf], *gaps])
     nearest = float(outside[outside >= 0].min())
-    return radius if radius <= nearest + cell else nearest + BESIDE * cell
+    return min(radius, nearest + BESIDE * cell)
 
 
 def _gaps(places: Array, shape: Shape) -> Array:

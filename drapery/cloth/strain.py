@@ -10,11 +10,13 @@ springs are within the limit keeps its bits. In another one
    step), and contact, if there is any, is resolved again from the start of the step. Ends share a
    correction by inverse mass; later the end that is farther from the pins takes all of it in each
    second sweep, which shortens long chains at once;
-2. if springs are still too long after some rounds of that, and no box moves, all particles go back
-   by the same part of their way in the step, at whose start no spring was too long. Lengths are
-   convex in the places of particles, so each spring is held on the whole way there.
+2. if springs are still too long after some rounds of that, boxes are met anew without friction,
+   which holds particles where their springs have to slide them along a box;
+3. if springs are still too long, and no box moves, all particles go back by the same part of their
+   way in the step, at whose start no spring was too long. Lengths are convex in the places of
+   particles, so each spring is held on the whole way there.
 
-The second cannot help where pins or colliders move the cloth apart; then `State.worst` and a
+The last cannot help where pins or colliders move the cloth apart; then `State.worst` and a
 warning say how far, where and when.
 """
 
@@ -173,6 +175,16 @@ def is_long(x: Array, limit: StrainLimit) -> bool:
         if dot(offset, offset) > limit.squares[s]:
             return True
     return False
+
+
+@kernel
+def longest_square(x: Array, limit: StrainLimit) -> float:
+    """The largest square of a spring's length in a cloth [N, 3] over the square of its limit."""
+    most = 0.0
+    for s in range(limit.squares.size):
+        offset = subtract(row(x, limit.pairs[s, 1]), row(x, limit.pairs[s, 0]))
+        most = max(most, dot(offset, offset) / limit.squares[s])
+    return most
 
 
 @kernel

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from benchmarks.storms import DEEPEST, LIMIT, SEEN, Storm, measured, storms
+from benchmarks.storms import DEEPEST, LIMIT, SEEN, measured, storms
 
 COUNT = 29
 RANDOM = list(storms(COUNT, seed=5, largest=15))
-FINE = Storm({}, SEEN[-1])
+FINE = SEEN[-1]
 THICK_CAPES = [
     pytest.param(storm, id=storm.text, marks=[pytest.mark.slow] if storm is FINE else [])
     for storm in (RANDOM.pop(25), FINE)
@@ -27,9 +27,9 @@ def test_an_allowed_setting_tears_nothing(number):
     check(RANDOM[number], 1.0)
 
 
-@pytest.mark.parametrize("options", SEEN[:-1], ids=str)
-def test_what_tore_is_whole(options):
-    check(Storm({}, options), 0.5)
+@pytest.mark.parametrize("storm", SEEN[:-1], ids=lambda storm: storm.text)
+def test_what_tore_is_whole(storm):
+    check(storm, 0.5)
 
 
 @pytest.mark.parametrize("storm", THICK_CAPES)

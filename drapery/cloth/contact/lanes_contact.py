@@ -39,6 +39,7 @@ from drapery.cloth.strain import (
     excess_of_lanes,
     go_back,
     is_long,
+    longest_square,
     note_longest,
     plane_is_long,
     shorten_long,
@@ -57,6 +58,9 @@ MOST_CONTACTS = 32
 `xpbd` are in every substep.)"""
 STRAIN_ROUNDS = 6
 """How often contact is resolved again after springs that are too long were shortened."""
+LOOSE_ROUNDS = 24
+"""How often it is resolved anew, without the friction of boxes, where springs are still too long:
+friction holds particles where their springs would have to slide them along a box."""
 FREE = 1.0
 """Cloth that boxes move at the start of a step by more than this part of the distance that it keeps
 does not go back there."""
@@ -122,16 +126,56 @@ def resolve(work: Any, boxes: Any, itself: Any, limit: Any, careful: int) -> int
         return TORN
     if not is_long(work.end, limit):
         return met
-    for _ in range(STRAIN_ROUNDS):
-        shorten_long(work.end, limit)
-        meet_one(work.start, work.end, itself, contact, work.near)
-        if not is_long(work.end, limit):
+    if is_held(work, itself, contact, limit, STRAIN_ROUNDS):
+        return MET
+    if len(boxes.halves) > 0:
+        best, least = work.end.copy(), longest_square(work.end, limit)
+        put_all(work.end, work.solved)
+        if is_held(work, itself, without_friction(contact), limit, LOOSE_ROUNDS):
             return MET
+        if longest_square(work.end, limit) > least:
+            put_all(work.end, best)
     # The way back would lead into a box that moves, or in which the cloth begins.
     stays = not boxes_move(work) and begins_free(work, contact)
     if stays and go_back(work.start, work.end, limit):
         meet_one(work.start, work.end, itself, contact, work.near)
     return LONG if is_long(work.end, limit) else MET
+
+
+@kernel
+def is_held(work: Any, itself: Any, contact: Any, limit: Any, rounds: int) -> bool:
+    """Shorten springs that are too long and resolve contact again, in turns; returns whether no
+    spring is too long in the end."""
+    for _ in range(rounds):
+        shorten_long(work.end, limit)
+        meet_one(work.start, work.end, itself, contact, work.near)
+        if not is_long(work.end, limit):
+            return True
+    return False
+
+
+@kernel
+def put_all(out: Any, x: Any) -> None:
+    """Copy the places of one cloth, [N, 3]."""
+    for i in range(len(x)):
+        put(out, i, 0, row(x, i))
+
+
+@kernel
+def without_friction(contact: Any) -> BoxContact:
+    """The same boxes, along which cloth slides freely."""
+    return BoxContact(
+        contact.starts,
+        contact.ends,
+        contact.halves,
+        np.zeros(len(contact.friction)),
+        contact.radius,
+        contact.reach,
+        contact.edges,
+        contact.triangles,
+        contact.inv_mass,
+        contact.bands,
+    )
 
 
 @kernel
@@ -175,7 +219,7 @@ def resolve_block(
     work.starts[:], work.ends[:] = boxes.starts, boxes.ends
     carried = np.zeros((block[1] - block[0], x.shape[1]))
     for cloth in range(*block):
-        work.start[:], work.end[:] = start[cloth], x[cloth]
+        work.start[:], work.end[:], work.solved[:] = start[cloth], x[cloth], x[cloth]
         long = resolve(work, boxes, itself, limit, 1) == LONG or long
         x[cloth] = work.end
         if len(boxes.halves):
