@@ -23,6 +23,7 @@ from drapery.studio.descriptions import described
 from drapery.studio.design_buttons import DesignButton
 from drapery.studio.exports import Export, ExportRequest
 from drapery.studio.file_field import FileField
+from drapery.studio.form_field import FormField
 from drapery.studio.library import Library
 from drapery.studio.pack_store import PackStore
 from drapery.studio.panels import (
@@ -82,6 +83,23 @@ def emit(element: Element, event: str, args: Any) -> None:
     for listener in element._event_listeners.values():
         if listener.type == event:
             element._handle_event({"listener_id": listener.id, "args": args})
+
+
+def test_a_number_whose_default_depends_on_others_is_shown(
+    in_page: Callable[..., None], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def build(client: Client, session: Session) -> None:
+        with client:
+            motion.build(session)
+        fields = [each for each in client.elements.values() if isinstance(each, FormField)]
+        values = {kind: [] for kind in ("range", "number", "checkbox", "select", "text")}
+        for each in fields:
+            values[each.props["kind"]].append(each.props["shown"]["value"])
+        assert None not in values["checkbox"] and values["range"]
+        assert all(float(text) >= 0 for text in values["range"])
+
+    monkeypatch.setattr(Settings, "as_given", lambda self, name: None)
+    in_page(build)
 
 
 def test_the_name_of_a_design_button_begins_with_its_text(in_page: Callable[..., None]) -> None:

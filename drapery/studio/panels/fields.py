@@ -66,7 +66,10 @@ class Fields:
         option = OPTIONS[name]
 
         def get() -> Any:
-            return self._session.settings.as_given(name)
+            return getattr(self._session.settings, name)
+
+        def given() -> str:
+            return option.to_text(self._session.settings.as_given(name))
 
         def change(value: Any) -> None:
             self._session.adjust(**{name: value}, **also)
@@ -78,7 +81,7 @@ class Fields:
             self.tick(label, get, lambda on: change(bool(on)))
         elif titles := choices or choice_titles(option):
             help = "" if choices else option_help(option)
-            self.choice(label, titles, lambda: option.to_text(get()), choose, title=help)
+            self.choice(label, titles, given, choose, title=help)
         elif step:
             self.slider(label, option, step, get, change, partial(with_unit, option))
         else:
