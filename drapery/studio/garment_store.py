@@ -76,7 +76,7 @@ class GarmentStore:
         """Take over the files of another tab, as `names` has them, if they are still there."""
         for path, name in names.items():
             here = self._document.folder / _place(path)
-            with suppress(OSError):
+            with suppress(OSError):  # the page says it where the file is worn: it is not here
                 here.parent.mkdir(exist_ok=True)
                 link_or_copy(Path(path), here)
                 self.names[str(here)] = name

@@ -120,8 +120,7 @@ def test_both_wings_return_after_a_glide() -> None:
 
     poses = BonePoses(player_bones(PARTS), table)
     dressed.__dict__["wearer"] = replace(dressed.wearer, poses=poses)
-    with pytest.warns(UserWarning, match="pins or colliders pull cloth 0 apart"):  # it jumps
-        both, _ = recorded(dressed, [0.0, 1.0, 4.0])
+    both, _ = recorded(dressed, [0.0, 1.0, 4.0])
     away = np.linalg.norm(both[:, 2] - wings("stand")[0][:, -1], axis=-1)
     assert away.max() < 0.1
     assert np.linalg.norm(both[:, 2] - both[:, 1], axis=-1).max() > 0.5

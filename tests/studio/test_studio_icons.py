@@ -55,5 +55,5 @@ def test_a_damaged_or_large_item_of_a_pack_is_no_fault(tmp_path: Path) -> None:
 def test_every_tab_has_a_picture_of_lines() -> None:
     tabs = {panel.name for panel in PANELS if panel.group}
     assert tabs | {"fault", "warning", "done"} < {*LINES}
-    assert all(re.fullmatch(r"M[-\dMHVChvlacsz .]+", path) for path in LINES.values())
+    assert all(re.fullmatch(r"M[-\dMLHVChvlacsz .]+", path) for path in LINES.values())
     assert len({*LINES.values()}) == len(LINES)
