@@ -30,7 +30,7 @@ def editable(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return installed(tmp_path_factory.mktemp("editable"), *words)
 
 
-@pytest.fixture(params=[pytest.param("wheel", marks=pytest.mark.slow), "editable"])
+@pytest.fixture(params=["wheel", "editable"])
 def python(request: pytest.FixtureRequest) -> Path:
     found: Path = request.getfixturevalue(request.param)
     return found
@@ -76,6 +76,7 @@ def check(*command: str, program: Path) -> list[tuple[str, int, str]]:
     return [(name, int(line), text) for name, line, text in found]
 
 
+@pytest.mark.slow
 def test_ty_finds_the_mistakes_and_nothing_else(python: Path, program: Path) -> None:
     words = ["--python", str(python), "--output-format", "concise", "--color", "never"]
     found = check("ty", "check", *words, program=program)

@@ -84,6 +84,7 @@ def test_limits_of_cases(pictures: Path, drapery: Run, name: str) -> None:
             assert drapery("golden", "check", file, *report)[0] == code
 
 
+@pytest.mark.slow
 def test_limits_of_the_fixture_and_of_a_project(
     pictures: Path, pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -111,6 +111,7 @@ def with_a_wrong_byte(content):
 DAMAGES = (lambda content: b"", lambda content: content[: len(content) // 2], with_a_wrong_byte)
 
 
+@pytest.mark.slow
 def test_damaged_cache_files_are_rebuilt(tmp_path, untraced_processes):
     """A package for each damage; one process uses all packages."""
     program, numbers = "", range(len(DAMAGES))
