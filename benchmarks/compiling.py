@@ -2,11 +2,11 @@
 
 Each run is a process of its own with an empty cache; `numba` stands for the compiler as numba has
 it, without `drapery.jit.compiling`. The ratio is that of the processor's times; the pictures must
-be the same. On a slow and busy core (x86-64, Python 3.13, numba 0.68.1) 357 compilations of 222
-functions that were linked into each caller took 88.3 s and 1074 MB; linked once, in the same
-minutes, 306 took 70.7 s and 554 MB. Later 263 of 200 took 61.3 s and 506 MB. Compiled twice are
-`nearest` and `gap_of`, for int64 and uint8, and `texels_of`, for both precisions; the other 60 are
-numba's own.
+be the same. Alone on a machine (x86-64, Python 3.13, numba 0.68.1) numba took 93.6 s for 348
+compilations of 289 functions, and 38.0 s were left for 291 of 288: a ratio of 0.41.
+`--checkout FOLDER` compares with the sources of another checkout instead, such as the last
+release, in turns; the least time of each counts. Other work on the machine, also on the other half
+of a core, makes each time longer by up to a sixth.
 """
 
 import argparse
@@ -15,6 +15,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from pathlib import Path
 from typing import NamedTuple
 
 from benchmarks.quick import add_quick
@@ -48,6 +49,10 @@ print(json.dumps([seconds, memory, *counts, hashlib.sha256(pixels.tobytes()).hex
 """
 
 
+ROOT = str(Path(__file__).parents[1])
+TURNS = 3
+
+
 class Cost(NamedTuple):
     """Seconds of the processor, the most memory [MB], how many compilations of how many functions,
     and a hash of the first picture."""
@@ -59,11 +64,12 @@ class Cost(NamedTuple):
     pixels: str
 
 
-def run(before: str, what: str) -> Cost:
-    """What the first picture costs in a process of its own."""
+def run(before: str, what: str, checkout: str = ROOT) -> Cost:
+    """What the first picture costs in a process of its own, by the sources of a checkout."""
     with tempfile.TemporaryDirectory() as cache:
         made = subprocess.run(
             [sys.executable, "-c", before + RUN, what],
+            cwd=checkout,  # the first place in which `python -c` looks for modules
             env=os.environ | {"NUMBA_CACHE_DIR": cache, "DRAPERY_AOT": "0"},
             stdout=subprocess.PIPE,
             check=True,
@@ -76,13 +82,19 @@ def main() -> None:
     """Run the command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     add_quick(parser)
-    what = "face" if parser.parse_args().quick else "cloth"
-    plain, here = run(PLAIN, what), run("", what)
-    for name, cost in (("numba", plain), ("here", here)):
-        print(f"{name:6} {cost.seconds:6.1f} s of the processor, {cost.memory:5.0f} MB,", end=" ")
+    parser.add_argument("--checkout", help="a folder with the sources of another version")
+    given = parser.parse_args()
+    what = "face" if given.quick else "cloth"
+    if given.checkout:
+        turns = [(run("", what, given.checkout), run("", what)) for _ in range(TURNS)]
+        name, (other, here) = "there", map(min, zip(*turns, strict=True))
+    else:
+        name, other, here = "numba", run(PLAIN, what), run("", what)
+    for each, cost in ((name, other), ("here", here)):
+        print(f"{each:6} {cost.seconds:6.1f} s of the processor, {cost.memory:5.0f} MB,", end=" ")
         print(f"{cost.compilations} compilations of {cost.functions} functions")
-    print(f"ratio  {here.seconds / plain.seconds:.2f}")
-    if plain.pixels != here.pixels:
+    print(f"ratio  {here.seconds / other.seconds:.2f}")
+    if other.pixels != here.pixels:
         sys.exit("the pictures differ")
 
 

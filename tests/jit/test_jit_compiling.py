@@ -2,6 +2,7 @@
 results."""
 
 import gc
+import operator
 import sys
 import threading
 from typing import Any
@@ -9,7 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 from numba import njit
-from numba.core import codegen, event
+from numba.core import codegen, event, ir, utils
+from numba.core.compiler import run_frontend
 from numba.core.errors import TypingError
 
 from drapery import jit
@@ -120,6 +122,57 @@ def test_a_kernel_is_compiled_once_for_literals_and_all_widths_of_integers() -> 
     assert [str(each) for each in chosen.dispatcher.overloads] == [
         "(Array(float64, 1, 'C', False, aligned=True), int64, UniTuple(int64, 2), bool)"
     ]
+
+
+def test_only_kernels_of_ours_resolve_calls_of_the_same_types_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    resolved: list[Any] = []
+    order = utils.order_by_target_specificity
+
+    def listed(target: Any, templates: Any, fnkey: Any = "") -> Any:
+        resolved.append(fnkey)
+        return order(target, templates, fnkey=fnkey)
+
+    def added(number):
+        return number + number + number + number
+
+    monkeypatch.setattr(utils, "order_by_target_specificity", listed)
+    ours, again = entry_point(added), entry_point(added)
+    assert ours(1.5) == 6
+    assert resolved.count(operator.add) == 1
+    assert again(1.5) == 6  # what is declared between two compilations counts
+    assert resolved.count(operator.add) == 2
+    assert njit(added)(1.5) == 6
+    assert resolved.count(operator.add) > 4
+
+
+def test_the_variables_of_an_instruction_are_those_that_numba_lists() -> None:
+    def function(row, start, *rest):
+        total = {"start": start}["start"]
+        for at, (value, other) in enumerate(zip(row[1:-1], rest, strict=False)):
+            if not value < other:
+                row[at] = max(value, total, -other)
+            total += value
+        del start
+        return total, rest
+
+    def by_numba(part: Any) -> list[Any]:
+        if isinstance(part, ir.Var):
+            return [part]
+        if isinstance(part, ir.Expr):
+            return by_numba(part._kws)
+        if isinstance(part, ir.Inst):
+            return by_numba(vars(part))
+        if isinstance(part, dict):
+            part = list(part.values())
+        parts = part if isinstance(part, (list, tuple)) else []
+        return [found for each in parts for found in by_numba(each)]
+
+    statements = [each for block in run_frontend(function).blocks.values() for each in block.body]
+    assert len(statements) > 50
+    for each in statements:
+        assert each.list_vars() == by_numba(each)
 
 
 def test_code_holds_no_path_of_the_machine_that_compiled_it() -> None:
