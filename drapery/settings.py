@@ -675,42 +675,57 @@ TEXTURED = tuple(kind for kind in get_args(Kind)[1:] if OPTIONS["texture"].appli
 
 _AS_LOOP = "name an animation such as x.gif, or leave it out"
 
-LOOP_OPTIONS: Mapping[str, Option] = MappingProxyType(
-    {
-        "seconds": Option(
-            "seconds",
-            "Length of the loop",
-            float,
-            4.0,
-            bounds=(1 / 120, MAX_FRAMES),
-            unit="s",
-            audience="anyone",
-            affects=("motion", "file"),
-            not_for=("still", "page"),
-            remedy=_AS_LOOP,
-        ),
-        "fps": Option(
-            "fps",
-            "Frames per second",
-            float,
-            20.0,
-            bounds=(1, 120),
-            unit="frames/s",
-            audience="anyone",
-            affects=("motion", "file"),
-            not_for=("still", "page"),
-            remedy=_AS_LOOP,
-        ),
-    }
-)
-"""The options that an animation has beside those of a picture."""
+
+@dataclass(frozen=True)
+class LoopSettings:
+    """Checked options that an animation has beside those of its pictures.
+
+    Raises OptionError that names the option and its limits.
+    """
+
+    seconds: float = option_field(
+        4.0,
+        float,
+        "Length of the loop",
+        bounds=(1 / 120, MAX_FRAMES),
+        unit="s",
+        audience="anyone",
+        affects=("motion", "file"),
+        not_for=("still", "page"),
+        remedy=_AS_LOOP,
+    )
+    fps: float = option_field(
+        20.0,
+        float,
+        "Frames per second",
+        bounds=(1, 120),
+        unit="frames/s",
+        audience="anyone",
+        affects=("motion", "file"),
+        not_for=("still", "page"),
+        remedy=_AS_LOOP,
+    )
+
+    def __post_init__(self) -> None:
+        for name in (name for name in LOOP_OPTIONS if name != "seconds"):
+            LOOP_OPTIONS[name].check(getattr(self, name))
+        # The bounds of the length depend on the rate.
+        least, most = 1 / self.fps, MAX_FRAMES / self.fps
+        within("seconds", self.seconds, least, most, f"s at {self.fps:g} frames/s")
+
+    @property
+    def count(self) -> int:
+        """How many frames the animation has."""
+        return max(1, round(self.seconds * self.fps))
+
+
+LOOP_OPTIONS = option_table(LoopSettings)
+"""The options of an animation by name, in the order in which help lists them."""
 
 
 def frame_count(seconds: float, fps: float) -> int:
     """How many frames an animation of this length [s] has. Raises OptionError."""
-    LOOP_OPTIONS["fps"].check(fps)
-    within("seconds", seconds, 1 / fps, MAX_FRAMES / fps, f"s at {fps:g} frames/s")
-    return max(1, round(seconds * fps))
+    return LoopSettings(seconds, fps).count
 
 
 def settled(

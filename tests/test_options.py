@@ -21,10 +21,10 @@ from drapery.settings import (
     LOOP_OPTIONS,
     NAMED_OPTIONS,
     OPTIONS,
+    LoopSettings,
     Options,
     Settings,
     ViewName,
-    frame_count,
 )
 
 HUGE = 10**310 - 1
@@ -105,11 +105,26 @@ def test_a_number_beyond_every_float_is_refused_in_one_line(name: str, value: fl
     assert name in line and len(line) < 160 and "\n" not in line
 
 
-def test_a_long_frame_rate_is_refused() -> None:
-    with pytest.raises(OptionError, match=r"fps .* is out of range; use 1 to 120 frames/s"):
-        frame_count(4.0, HUGE)
-    with pytest.raises(OptionError, match=r"seconds .* is out of range"):
-        frame_count(HUGE, 20.0)
+@pytest.mark.parametrize(
+    ("timing", "fault"),
+    [
+        ((4.0, HUGE), r"fps .* is out of range; use 1 to 120 frames/s"),
+        ((4.0, 0.0), r"fps 0 is out of range; use 1 to 120 frames/s"),
+        ((HUGE, 20.0), r"seconds .* is out of range; use 0\.05 to 180 s at 20 frames/s"),
+        ((1e9, 20.0), r"seconds .* is out of range; use 0\.05 to 180 s at 20 frames/s"),
+        ((float("nan"), 20.0), r"seconds nan is out of range; use 0\.05 to 180 s at 20 frames/s"),
+    ],
+)
+def test_a_loop_out_of_bounds_is_refused(timing: tuple[float, float], fault: str) -> None:
+    with pytest.raises(OptionError, match=fault):
+        LoopSettings(*timing)
+
+
+def test_a_loop_counts_its_frames() -> None:
+    assert LoopSettings().count == 80
+    assert LoopSettings(0.05, 20.0).count == 1
+    assert LoopSettings(1 / 3, 10.0).count == 3
+    assert LoopSettings(180.0, 20.0).count == 3600
 
 
 @pytest.mark.parametrize("flag", ["--seed", "--rotation", "--pixel", "--block-light", "--format"])
