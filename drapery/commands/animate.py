@@ -1,5 +1,6 @@
 """`drapery animate`: a banner waving in the wind, as a seamless loop."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -37,11 +38,8 @@ ForOption = Annotated[
 
 @o.pictured("loop")
 def run(
-    ctx: typer.Context,
     out: OutOption,
     to: ForOption = None,
-    seconds: o.SecondsOption = 4.0,
-    fps: o.FpsOption = 20.0,
     matte: Annotated[
         str | None,
         typer.Option(metavar="#RRGGBB", help="Behind half-transparent pixels of a GIF or video."),
@@ -53,22 +51,22 @@ def run(
     from drapery import iter_frames
     from drapery.render import save_animation
     from drapery.render.encode import check_quality, check_target
-    from drapery.settings import background_colour, frame_count
+    from drapery.settings import LoopSettings, background_colour
 
-    settings = o.settings_of(words)
+    settings, timed = o.settings_of(words), o.loop_options_of(words)
     behind = None if matte is None else background_colour(matte)[:3]
     check_quality(check_target(out, "loop"), quality)
     if to is not None:
         if matte is not None:
             raise OptionError("matte does nothing with --for; leave one of them out")
-        rate = fps if o.is_given(ctx, "fps") else None
-        _save_for(to, o.design_of(words), settings, out, seconds, rate, quality)
+        _save_for(to, o.design_of(words), settings, out, timed, quality)
         return
+    timing = LoopSettings(**timed)
+    fps, total = timing.fps, timing.count
     with compile_notice():
         design = o.design_of(words)
         with progress("moving the cloth") as moved:
-            drawn = iter_frames(design, settings, seconds=seconds, fps=fps, on_moment=moved)
-        total = frame_count(seconds, fps)
+            drawn = iter_frames(design, settings, on_moment=moved, **timed)
         with progress("frames", total) as tick:
             save_animation(
                 drawn, fps, out, matte=behind, quality=quality, total=total, progress=tick
@@ -80,26 +78,29 @@ def _save_for(
     design: "Banner | None",
     settings: "Settings",
     out: str,
-    seconds: float,
-    fps: float | None,
+    timed: Mapping[str, Any],
     quality: int | None,
 ) -> None:
-    """Write the best loop that a to takes, and say what was chosen."""
+    """Write the best loop that a to takes, and say what was chosen.
+
+    timed: the options of a loop that are given, by name.
+    """
     from drapery import iter_frames
     from drapery.render import save_for
+    from drapery.settings import LOOP_OPTIONS
 
     size = settings.size if "size" in settings.given else None
     with compile_notice():
         fitted = save_for(
             to,
             lambda wide, rate: iter_frames(
-                design, settings.changed(size=wide), seconds=seconds, fps=rate
+                design, settings.changed(size=wide), **{**timed, "fps": rate}
             ),
             out,
-            seconds=seconds,
+            seconds=timed.get("seconds", LOOP_OPTIONS["seconds"].default),
             size=size,
             shape=settings.size,
-            fps=fps,
+            fps=timed.get("fps"),
             quality=quality,
         )
     (width, height), quality = fitted.size, fitted.quality

@@ -1,5 +1,6 @@
 """`drapery garment`: a garment of a file as a picture, an animation or a 3-D file."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -41,8 +42,6 @@ def run(
             "--design", metavar="DESIGN", help="A banner for the pieces that show a design."
         ),
     ] = None,
-    seconds: o.SecondsOption = 4.0,
-    fps: o.FpsOption = 20.0,
     **words: Any,
 ) -> None:
     """Draw a garment: a cape, flag, tent or a file of your own.
@@ -67,17 +66,21 @@ def run(
         garment = garment.with_design(read_design(banner))
     o.check_given(context, out)
     settings = garment.settings(**o.options_of(words))
-    write_garment(garment, out, settings, seconds, fps)
+    write_garment(garment, out, settings, o.loop_options_of(words))
 
 
 def write_garment(
-    garment: "Garment", out: str, settings: "Settings", seconds: float, fps: float
+    garment: "Garment", out: str, settings: "Settings", timed: Mapping[str, Any]
 ) -> None:
-    """Write a garment as what the ending says. Raises DraperyError."""
+    """Write a garment as what the ending says.
+
+    timed: the options of a loop that are given, by name.
+    Raises DraperyError.
+    """
     from drapery import draw, iter_frames, save_model
     from drapery.render import save_animation
     from drapery.render.encode import check_target
-    from drapery.settings import frame_count
+    from drapery.settings import LoopSettings
 
     kind = check_target(out, "still", "loop", "model", "page").kind()
     if kind == "page":
@@ -87,17 +90,17 @@ def write_garment(
             write_page(Path(out), garment, settings)
     elif kind == "model":
         with compile_notice():
-            save_model(garment, out, settings, seconds=seconds, fps=fps)
+            save_model(garment, out, settings, **timed)
     elif kind == "still":
         with drawing():
             draw(garment, settings).save(out)
     else:
-        total = frame_count(seconds, fps)
+        timing = LoopSettings(**timed)
         with compile_notice():
             with progress("moving the cloth") as moved:
-                frames = iter_frames(garment, settings, seconds=seconds, fps=fps, on_moment=moved)
-            with progress("frames", total) as tick:
-                save_animation(frames, fps, out, total=total, progress=tick)
+                frames = iter_frames(garment, settings, on_moment=moved, **timed)
+            with progress("frames", timing.count) as tick:
+                save_animation(frames, timing.fps, out, total=timing.count, progress=tick)
 
 
 def _show_list() -> None:

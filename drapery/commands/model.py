@@ -28,7 +28,6 @@ def run(
     context: typer.Context,
     out: OutOption,
     seconds: Annotated[float, typer.Option(help="Length of the loop; 0 for one pose.")] = 4.0,
-    fps: o.FpsOption = 20.0,
     origin: OriginOption = "corner",
     **words: Any,
 ) -> None:
@@ -39,6 +38,6 @@ def run(
     o.check_given(context, out)
     if not seconds and o.is_given(context, "fps"):
         raise OptionError(f"{out}: fps does nothing for one pose; leave it out, or seconds 0")
-    settings = o.settings_of(words)
+    settings, timed = o.settings_of(words), o.loop_options_of(words)
     with compile_notice():
-        save_model(o.design_of(words), out, settings, seconds=seconds, fps=fps, origin=origin)
+        save_model(o.design_of(words), out, settings, seconds=seconds, origin=origin, **timed)

@@ -45,7 +45,7 @@ NumberOption = Annotated[
 
 
 def from_table(name: str) -> Any:
-    """A typer option from the table: its flag, help, limits and default."""
+    """A typer option from the tables: its flag, help, limits and default."""
     return _typer_option(NAMED_OPTIONS.get(name) or LOOP_OPTIONS[name])
 
 
@@ -88,7 +88,7 @@ def pictured(
     without: Sequence[str] = (),
     more: Mapping[str, Option] = MappingProxyType({}),
 ) -> Callable[[Command], Command]:
-    """Add the options of a picture to a command that takes any keyword, after its own options.
+    """Add the options of a picture or loop to a command that takes any keyword, after its own.
 
     The command gets those that are given.
 
@@ -103,10 +103,11 @@ def pictured(
         source = {name: _parameter(name, None, kind) for name, kind in _SOURCE.items()}
         if subject is not None and subject.kind in ("garment", "player"):
             source = {}
-        table = {**more, **{name: NAMED_OPTIONS[name] for name in applicable(subject, output)}}
+        table = {n: o for n, o in LOOP_OPTIONS.items() if o.applies(subject, output)} | {**more}
+        table |= {name: NAMED_OPTIONS[name] for name in applicable(subject, output)}
         shared = source | {name: _from_option(option) for name, option in table.items()}
         added = {n: p for n, p in shared.items() if n not in own and n not in without}
-        optional = [name for name in NAMED_OPTIONS if name in added]
+        optional = [name for name in (*NAMED_OPTIONS, *LOOP_OPTIONS) if name in added]
         context = next((n for n, p in own.items() if p.annotation is typer.Context), "")
         if not context:
             added["ctx"] = _parameter("ctx", inspect.Parameter.empty, typer.Context)
@@ -175,6 +176,11 @@ def options_of(words: Mapping[str, Any]) -> Options:
         for name, option in chosen.items()
     }
     return cast(Options, values)
+
+
+def loop_options_of(words: Mapping[str, Any]) -> dict[str, Any]:
+    """The options of a loop among a command's words, as `animate` takes them."""
+    return {name: words[name] for name in LOOP_OPTIONS if name in words}
 
 
 def settings_of(words: Mapping[str, Any]) -> Settings:

@@ -22,8 +22,6 @@ def run(
             help="A picture, animation, folder, 3-D file or .html page.",
         ),
     ],
-    seconds: o.SecondsOption = 4.0,
-    fps: o.FpsOption = 20.0,
     **words: Any,
 ) -> None:
     """Draw a player in its skin, moving, with a cape and clothes of real cloth."""
@@ -35,4 +33,5 @@ def run(
     }
     player = player_of(PlayerSettings(**chosen))
     o.check_given(context, out)
-    write_garment(player, out, player.settings(**o.options_of(words)), seconds, fps)
+    settings = player.settings(**o.options_of(words))
+    write_garment(player, out, settings, o.loop_options_of(words))
