@@ -16,7 +16,7 @@ DYES = ("white", "red", "blue", "lime", "black", "pink")
 def job(name: str, design: str = "white") -> Job:
     """A job that nothing has to draw."""
     settings = Settings(size=(16, 16), grid=(2, 2), time=0.05)
-    return Job(name, (f"{name}.png",), (f"line {name}",), Banner(design), settings, None, None, "1")
+    return Job(name, (f"{name}.png",), (f"line {name}",), Banner(design), settings, None, "1")
 
 
 def work(one: Job) -> JobResult:

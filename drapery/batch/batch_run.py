@@ -151,7 +151,7 @@ def _spawner(
 
         if scheduler not in (None, "local"):
             return cluster.connect(str(scheduler), store, limits)
-        animated = [job.seconds is not None for job in jobs]
+        animated = [job.timing is not None for job in jobs]
         warm_up(stills=not all(animated), loops=any(animated))
         if scheduler == "local":
             return cluster.local_cluster(min(most, todo), store, limits)

@@ -3,7 +3,7 @@
 import time
 import warnings
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -13,7 +13,7 @@ from drapery.batch.keys import DigestCache, code_version, picture_key
 from drapery.batch.manifest import PictureRequest
 from drapery.batch.stores import LocalStore, Store
 from drapery.errors import BackendError, DesignError, DraperyError, OptionError
-from drapery.settings import Settings
+from drapery.settings import LoopSettings, Settings
 
 if TYPE_CHECKING:
     from drapery.garments import Garment
@@ -24,8 +24,8 @@ class Job:
     """A picture to draw.
 
     key: the hash of its design and options, see `picture_key`. outs: the files to write. places:
-    of each file in the manifest. seconds, fps: of an animation; None for a still. version: of the
-    code.
+    of each file in the manifest. timing: the options of an animation; None for a still. version:
+    of the code.
     """
 
     key: str
@@ -33,8 +33,7 @@ class Job:
     places: tuple[str, ...]
     banner: "Banner | Garment | None"
     settings: Settings
-    seconds: float | None
-    fps: float | None
+    timing: LoopSettings | None
     version: str
 
     @property
@@ -44,9 +43,9 @@ class Job:
         kind: str = moved.kind
         if drawn is not None and kind == "auto":
             kind = drawn.kind if isinstance(drawn, Banner) else drawn.name
-        if self.seconds is not None:
+        if self.timing is not None:
             moved = replace(moved, time=0.0)
-        return (kind, replace(moved, kind="auto"), self.seconds, self.fps)
+        return (kind, replace(moved, kind="auto"), self.timing)
 
 
 @dataclass(frozen=True)
@@ -88,16 +87,15 @@ def plan(requests: Iterable[PictureRequest]) -> list[Job]:
 def make_job(request: PictureRequest, digests: DigestCache) -> Job:
     """The job of one request. Raises PackError."""
     ending = Path(request.out).suffix.lower()
-    times = {"seconds": request.seconds, "fps": request.fps}
-    key = picture_key(request.banner, request.settings, digests, ending=ending, **times)
+    timing = request.timing
+    key = picture_key(request.banner, request.settings, digests, ending=ending, timing=timing)
     return Job(
         key,
         (request.out,),
         (request.place,),
         request.banner,
         request.settings,
-        request.seconds,
-        request.fps,
+        timing,
         code_version(),
     )
 
@@ -145,10 +143,9 @@ def _draw_and_store(job: Job, store: Store) -> tuple[int, tuple[str, ...]]:
 def _save(job: Job, path: Path) -> None:
     from drapery import draw, iter_frames
     from drapery.render import save_animation
-    from drapery.settings import frame_count
 
-    if job.seconds is None or job.fps is None:
+    if job.timing is None:
         draw(job.banner, job.settings).save(path)
         return
-    drawn = iter_frames(job.banner, job.settings, seconds=job.seconds, fps=job.fps)
-    save_animation(drawn, job.fps, path, total=frame_count(job.seconds, job.fps))
+    drawn = iter_frames(job.banner, job.settings, **asdict(job.timing))
+    save_animation(drawn, job.timing.fps, path, total=job.timing.count)

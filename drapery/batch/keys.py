@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from drapery import Banner, __version__
 from drapery.errors import PackError
 from drapery.render import backend
-from drapery.settings import OPTIONS, Settings
+from drapery.settings import OPTIONS, LoopSettings, Settings
 from drapery.styles import combined_style
 from drapery.user_files import open_user_file
 
@@ -62,8 +62,7 @@ def picture_key(
     digests: DigestCache,
     *,
     ending: str,
-    seconds: float | None,
-    fps: float | None,
+    timing: LoopSettings | None,
 ) -> str:
     """The key of a picture: 64 hexadecimal digits. Raises PackError for unreadable packs.
 
@@ -81,7 +80,7 @@ def picture_key(
     whole: dict[str, Any] = {
         "design": _described(banner, digests),
         "options": options,
-        "file": [ending, seconds, fps],
+        "file": [ending, None if timing is None else asdict(timing)],
         "version": code_version(),
         "added": added_code([step.function for step in style.steps], settings.backend),
     }

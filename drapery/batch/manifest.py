@@ -16,7 +16,7 @@ from drapery.file_formats import FileFormat, formats_of, known_format
 from drapery.option import Option, Output, Subject
 from drapery.option_checks import check_options, one_line, unknown_names
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
-from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings, settled_for
+from drapery.settings import LOOP_OPTIONS, OPTIONS, LoopSettings, Settings, settled_for
 from drapery.user_files import reason
 
 if TYPE_CHECKING:
@@ -55,14 +55,12 @@ class ManifestError(OptionError):
 
 @dataclass(frozen=True)
 class RowFields:
-    """The fields of a row that are not options of the picture."""
+    """The fields of a row that are no options."""
 
     design: str | None = None
     garment: str | None = None
     name: str | None = None
     out: str | None = None
-    seconds: float | None = None
-    fps: float | None = None
 
 
 @dataclass(frozen=True)
@@ -73,16 +71,24 @@ class PictureRequest:
     out: its file, relative to the output folder.
     banner: a banner or garment; None for what needs no design.
     settings: the options of the picture.
-    seconds: length of an animation [s]; None for a still.
-    fps: [frames/s] of an animation; None for a still.
+    timing: the options of an animation; None for a still.
     """
 
     place: str
     out: str
     banner: "Banner | Garment | None"
     settings: Settings
-    seconds: float | None = None
-    fps: float | None = None
+    timing: LoopSettings | None = None
+
+    @property
+    def seconds(self) -> float | None:
+        """Length of an animation [s]; None for a still."""
+        return None if self.timing is None else self.timing.seconds
+
+    @property
+    def fps(self) -> float | None:
+        """Rate of an animation [frames/s]; None for a still."""
+        return None if self.timing is None else self.timing.fps
 
 
 def read_manifest(
@@ -195,6 +201,7 @@ def _request(
     values = {**unset, **_one_name(row.values)}
     options = {name: values.pop(name) for name in list(values) if name in OPTIONS}
     player = {name: values.pop(name) for name in list(values) if name in PLAYER_OPTIONS}
+    loop = {name: values.pop(name) for name in list(values) if name in LOOP_OPTIONS}
     known = frozenset((*TEXTS, *LOOP_OPTIONS, *OPTIONS, *PLAYER_OPTIONS))
     faults = unknown_names(values, known)
     fields = _fields(values, faults)
@@ -213,17 +220,17 @@ def _request(
             faults.append("a player takes no design or garment; use head, shield or wear")
         banner = _player(player, folder, faults, settings)
     out = _out(fields, row, number, ending, faults)
-    times = _times(out, fields, faults, row.values)
+    timing = _timing(out, loop, faults, row.values)
     if not (faults or isinstance(settings, list)):
         own = {name: value for name, value in settings.given_values.items() if name in unset}
         try:
-            output: Output = "still" if times[0] is None else "loop"
+            output: Output = "still" if timing is None else "loop"
             settings = settled_for(banner, settings, output, own)
         except OptionError as error:
             faults.append(one_line(str(error)))
     if faults or isinstance(settings, list):
         return faults
-    return PictureRequest(row.place, out, banner, settings, *times)
+    return PictureRequest(row.place, out, banner, settings, timing)
 
 
 def _fields(values: Mapping[str, Any], faults: list[str]) -> RowFields:
@@ -232,12 +239,7 @@ def _fields(values: Mapping[str, Any], faults: list[str]) -> RowFields:
     for name, value in values.items():
         if value is None:
             continue
-        if name in LOOP_OPTIONS:
-            try:
-                read[name] = LOOP_OPTIONS[name].parse(value)
-            except OptionError as error:
-                faults.append(one_line(str(error)))
-        elif name in TEXTS:
+        if name in TEXTS:
             # A name such as 7 is a number in JSON and YAML.
             text = str(value) if isinstance(value, int | float) else value
             if not isinstance(text, str):
@@ -386,28 +388,31 @@ def _slug(where: str) -> str:
     return re.sub(r"[^\w.-]+", "_", where).strip("._-")[:100] or "banner"
 
 
-def _times(
-    out: str, fields: RowFields, faults: list[str], given: Container[str]
-) -> tuple[float | None, float | None]:
-    """Length and rate; None for a still, which some formats hold unless one of them is given.
+def _timing(
+    out: str, values: Mapping[str, Any], faults: list[str], given: Container[str]
+) -> LoopSettings | None:
+    """The options of an animation; None for a still, which some formats hold unless one is given.
 
     given: the names of what the row sets, which does not stand in a row of a still.
     """
-    from drapery.settings import frame_count
-
-    timed = {name for name in LOOP_OPTIONS if getattr(fields, name) is not None}
+    timed: dict[str, Any] = {}
+    for name, value in values.items():
+        if value is None:
+            continue
+        try:
+            timed[name] = LOOP_OPTIONS[name].parse(value)
+        except OptionError as error:
+            faults.append(one_line(str(error)))
     format = _format_of(out)
     if format is not None and format.kind(timed=bool(timed)) == "still":
         refusals = (LOOP_OPTIONS[name].refusal(output="still") for name in timed if name in given)
         faults += sorted(f"{out}: {refusal}" for refusal in refusals)
-        return None, None
-    seconds = LOOP_OPTIONS["seconds"].default if fields.seconds is None else fields.seconds
-    fps = LOOP_OPTIONS["fps"].default if fields.fps is None else fields.fps
+        return None
     try:
-        frame_count(seconds, fps)
+        return LoopSettings(**timed)
     except OptionError as error:
         faults.append(str(error))
-    return seconds, fps
+        return None
 
 
 def numbered(request: PictureRequest, used: dict[str, int]) -> PictureRequest:

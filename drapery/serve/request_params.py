@@ -13,7 +13,15 @@ from drapery.file_formats import FileFormat, format_of
 from drapery.option import Option, Output, Subject, within
 from drapery.option_checks import check_options, one_line, unknown
 from drapery.player_settings import PLAYER_OPTIONS, PlayerSettings
-from drapery.settings import LOOP_OPTIONS, OPTIONS, TEXTURED, Settings, settled, settled_for
+from drapery.settings import (
+    LOOP_OPTIONS,
+    OPTIONS,
+    TEXTURED,
+    LoopSettings,
+    Settings,
+    settled,
+    settled_for,
+)
 from drapery.styles import combined_style
 
 if TYPE_CHECKING:
@@ -304,24 +312,17 @@ def _request(
     ending: str,
     limits: PictureLimits,
 ) -> PictureRequest:
-    is_loop = _output(values, ending) == "loop"
-    seconds, fps = _times(values, limits) if is_loop else (None, None)
-    frames = 1 if seconds is None or fps is None else round(seconds * fps)
-    _check_size(settings, frames, limits)
-    return PictureRequest("address", "picture" + ending, banner, settings, seconds, fps)
+    timing = _timing(values, limits) if _output(values, ending) == "loop" else None
+    _check_size(settings, 1 if timing is None else timing.count, limits)
+    return PictureRequest("address", "picture" + ending, banner, settings, timing)
 
 
-def _times(values: dict[str, str], limits: PictureLimits) -> tuple[float, float]:
-    from drapery.settings import frame_count
-
-    seconds, fps = (
-        option.parse(values[name]) if name in values else option.default
-        for name, option in LOOP_OPTIONS.items()
-    )
-    within("fps", fps, 1, limits.fps, "frames/s")
-    within("seconds", seconds, 1 / fps, limits.seconds, "s")
-    frame_count(seconds, fps)
-    return seconds, fps
+def _timing(values: dict[str, str], limits: PictureLimits) -> LoopSettings:
+    given = {name: o.parse(values[name]) for name, o in LOOP_OPTIONS.items() if name in values}
+    timing = LoopSettings(**given)
+    within("fps", timing.fps, 1, limits.fps, "frames/s")
+    within("seconds", timing.seconds, 1 / timing.fps, limits.seconds, "s")
+    return timing
 
 
 def _check_size(settings: Settings, frames: int, limits: PictureLimits) -> None:

@@ -83,7 +83,7 @@ def test_a_client_that_found_no_scheduler_is_closed_at_once() -> None:
 
 
 def test_a_worker_of_another_version_refuses() -> None:
-    (job,) = [jobs.Job("k", ("k.png",), ("line 1",), None, None, None, None, "0+other")]
+    (job,) = [jobs.Job("k", ("k.png",), ("line 1",), None, None, None, "0+other")]
     (result,) = cluster.task([job], RemoteStore("memory://x"), JobLimits(), {})
     assert code_version() in result.error
     assert not result.retryable

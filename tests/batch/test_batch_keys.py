@@ -17,17 +17,14 @@ from drapery.banner.design import Banner
 from drapery.batch import keys
 from drapery.batch.keys import DigestCache, code_version, picture_key
 from drapery.errors import PackError
-from drapery.settings import Settings
+from drapery.settings import LoopSettings, Settings
 
 SHORT = "white creeper:lime border:black"
 
 
-def key(design: str = SHORT, ending: str = ".png", times=(None, None), **options) -> str:
-    seconds, fps = times
+def key(design: str = SHORT, ending: str = ".png", timing=None, **options) -> str:
     settings = Settings(**options)
-    return picture_key(
-        Banner.parse(design), settings, DigestCache(), ending=ending, seconds=seconds, fps=fps
-    )
+    return picture_key(Banner.parse(design), settings, DigestCache(), ending=ending, timing=timing)
 
 
 def test_the_spelling_of_a_design_does_not_count() -> None:
@@ -38,8 +35,8 @@ def test_the_spelling_of_a_design_does_not_count() -> None:
 CHANGES = [
     {"design": "white creeper:lime"},
     {"ending": ".webp"},
-    {"ending": ".gif", "times": (4.0, 20.0)},
-    {"ending": ".gif", "times": (4.0, 10.0)},
+    {"ending": ".gif", "timing": LoopSettings(4.0, 20.0)},
+    {"ending": ".gif", "timing": LoopSettings(4.0, 10.0)},
     {"wind": 5.0},
     {"size": (512, 511)},
     {"format": 46},

@@ -420,7 +420,7 @@ def test_a_manifest_reads_files_of_styles_beside_it(tmp_path: Path) -> None:
         text = f'[[picture]]\nstep = "tones"\ngamma = {gamma}\n'
         (tmp_path / "my.toml").write_text(text, encoding="utf-8")
         (request,) = read_manifest(rows)
-        given = {"ending": ".png", "seconds": None, "fps": None}
+        given = {"ending": ".png", "timing": None}
         keys.append(picture_key(request.banner, request.settings, DigestCache(), **given))
     assert keys[0] != keys[1]
     (tmp_path / "my.toml").write_text("light = 3", encoding="utf-8")
