@@ -1,7 +1,7 @@
 """Checks a file of cases: each is drawn and compared with its golden, or replaces it."""
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from drapery import Banner, animate, draw
@@ -9,7 +9,6 @@ from drapery.banner import read_design
 from drapery.comparison import Picture, as_picture
 from drapery.errors import DraperyError, OptionError
 from drapery.packs import open_packs
-from drapery.settings import LOOP_OPTIONS
 from drapery.testing.cases import Case, CaseFile
 from drapery.testing.check import GoldenCheck, GoldenResult, check_golden
 from drapery.testing.explain import LayerNote, layer_notes
@@ -136,11 +135,9 @@ def unused_goldens(cases: CaseFile, folder: Path) -> list[Path]:
 
 def _picture(case: Case, banner: Banner | None) -> Picture:
     settings = case.settings_for(banner)
-    if case.seconds is None and case.fps is None:
+    if case.timing is None:
         return as_picture(draw(banner, settings))
-    seconds = LOOP_OPTIONS["seconds"].default if case.seconds is None else case.seconds
-    fps = LOOP_OPTIONS["fps"].default if case.fps is None else case.fps
-    return as_picture(animate(banner, settings, seconds=seconds, fps=fps))
+    return as_picture(animate(banner, settings, **asdict(case.timing)))
 
 
 def _golden_path(cases: CaseFile, case: Case, folder: Path) -> Path:

@@ -28,7 +28,7 @@ from drapery.comparison import EXACT, LIMIT_OPTIONS, Tolerance, read_tolerance
 from drapery.errors import OptionError, shown
 from drapery.model_faults import said_of, wanted
 from drapery.option_checks import NAMES, check_options, one_line, unknown_names
-from drapery.settings import LOOP_OPTIONS, Settings, settled_for
+from drapery.settings import LOOP_OPTIONS, LoopSettings, Settings, settled_for
 from drapery.toml_text import parse_toml
 from drapery.user_files import read_user_file
 from drapery.yaml_text import load_yaml
@@ -47,8 +47,7 @@ class Case(BaseModel):
     design: a text in any form; None for what needs no design.
     tolerance: all limits together; a hashed case has none.
     hashed: whether the golden is a hash in place of a picture.
-    seconds: length of a loop [s]; with None for this and `fps`, the picture is a still.
-    fps: [frames/s] of a loop.
+    timing: the options of a loop, which are keys of a case; None for a still.
     settings: the options of the picture.
     defaulted: the names of options that the defaults of its file give.
     """
@@ -59,8 +58,7 @@ class Case(BaseModel):
     design: str | None = None
     tolerance: InstanceOf[Tolerance] = EXACT
     hashed: bool = False
-    seconds: float | None = None
-    fps: float | None = None
+    timing: InstanceOf[LoopSettings] | None = None
     settings: InstanceOf[Settings] = DEFAULTS
     defaulted: frozenset[str] = frozenset()
 
@@ -71,8 +69,7 @@ class Case(BaseModel):
         """
         values = self.settings.given_values.items()
         own = {name: value for name, value in values if name in self.defaulted}
-        is_still = self.seconds is None and self.fps is None
-        return settled_for(banner, self.settings, "still" if is_still else "loop", own)
+        return settled_for(banner, self.settings, "loop" if self.timing else "still", own)
 
 
 class CaseFile(BaseModel):
@@ -151,9 +148,11 @@ def _case(
         faults.append(one_line(str(error)))
     if own.get("hashed") and limits.keys() & given:
         faults.append(f"{min(limits.keys() & given)} does nothing in a hashed case; leave one out")
-    for name in (name for name in LOOP_OPTIONS if name in own):
+    timed = {name: own.pop(name) for name in LOOP_OPTIONS if name in own}
+    if timed:
         try:
-            own[name] = LOOP_OPTIONS[name].parse(own[name])
+            parsed = {name: LOOP_OPTIONS[name].parse(value) for name, value in timed.items()}
+            own["timing"] = LoopSettings(**parsed)
         except OptionError as error:
             faults.append(one_line(str(error)))
     if faults:
