@@ -6,13 +6,12 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from drapery import DraperyError, Frame, OptionError
 from drapery.banner import write_banner
 from drapery.option import one_of
-from drapery.settings import frame_count
 from drapery.studio.document import Document
 from drapery.studio.snippets import (
     FILE_OPTIONS,
@@ -62,14 +61,14 @@ def make(
     from drapery.render import save_animation
 
     check(request)
-    tick, total, fps = progress or (lambda done, total: None), count_frames(request), request.fps
+    tick, total = progress or (lambda done, total: None), count_frames(request)
     tick(0, total)
     if request.kind in LOOPS:
         frames = _frames(request, on_moment)
-        save_animation(frames, fps, path, progress=lambda done, _: tick(done, total))
+        save_animation(frames, request.timing.fps, path, progress=lambda done, _: tick(done, total))
     elif request.kind in MODELS:
         given = subject_of(request), path, options_for(request)
-        save_model(*given, seconds=request.seconds, fps=fps, progress=tick, on_moment=on_moment)
+        save_model(*given, progress=tick, on_moment=on_moment, **asdict(request.timing))
         tick(total, total)
     else:
         drawn = _drawn(request)
@@ -78,8 +77,8 @@ def make(
 
 
 def count_frames(request: ExportRequest) -> int:
-    """The number of frames in the file; 1 for a file without motion. Raises OptionError."""
-    return frame_count(request.seconds, request.fps) if request.kind in MOVING else 1
+    """The number of frames in the file; 1 for a file without motion."""
+    return request.timing.count if request.kind in MOVING else 1
 
 
 def check(request: ExportRequest) -> None:
@@ -103,8 +102,7 @@ def _frames(request: ExportRequest, on_moment: Progress | None = None) -> Iterat
     settings, chosen = options_for(request), scene_of(request)
     if chosen is None:
         subject = subject_of(request)
-        seconds, fps = request.seconds, request.fps
-        return iter_frames(subject, settings, seconds=seconds, fps=fps, on_moment=on_moment)
+        return iter_frames(subject, settings, on_moment=on_moment, **asdict(request.timing))
     scene = find_scene(chosen.name)
     clip, parameters = scene_clip(request, scene), scene.parameters(dict(chosen.words))
     backend = settings.backend if isinstance(settings.backend, str) else "auto"

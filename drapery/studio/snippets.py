@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from drapery.garments import (
 from drapery.option import Option, Output, Subject
 from drapery.player_settings import PLAYER_OPTIONS
 from drapery.scenes import Clip, SceneEntry, find_scene
-from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, OPTIONS, frame_count
+from drapery.settings import LOOP_OPTIONS, NAMED_OPTIONS, OPTIONS, LoopSettings
 from drapery.studio.chosen_scene import SceneChoice
 
 FORMATS = {
@@ -67,7 +67,7 @@ CAPES = ("cape", "elytra")
 class ExportRequest:
     """The description of a file to make.
 
-    kind: one of KINDS. seconds, fps: for a loop. scale: pixels per texel, for a face.
+    kind: one of KINDS. timing: of a loop. scale: pixels per texel, for a face.
     garment: the name or the file of a garment, which is drawn in place of the banner. scene: a
     ready-made scene, which pictures and animations show in place of the banner. skin: the name or
     the file of a skin, whose player wears the garment and has the design on its head or shield.
@@ -76,8 +76,7 @@ class ExportRequest:
     banner: Banner | None
     settings: Settings
     kind: str = "png"
-    seconds: float = LOOP_OPTIONS["seconds"].default
-    fps: float = LOOP_OPTIONS["fps"].default
+    timing: LoopSettings = field(default_factory=LoopSettings)
     scale: int = FILE_OPTIONS["scale"].default
     garment: str | None = None
     scene: SceneChoice | None = None
@@ -94,7 +93,7 @@ def scene_clip(request: ExportRequest, scene: SceneEntry) -> Clip:
     size = request.settings.size
     if request.kind in STILLS:
         return replace(scene.clip, size=size)
-    return Clip(size, frame_count(request.seconds, request.fps), request.fps)
+    return Clip(size, request.timing.count, request.timing.fps)
 
 
 def subject_of(request: ExportRequest) -> Banner | Garment | None:
@@ -245,7 +244,8 @@ def _player_flags(player: PlayerSettings, called: Mapping[str, str]) -> Iterator
 def _scene_command(request: ExportRequest, scene: SceneChoice, stem: str) -> str:
     words = ["drapery scene", scene.name, "-o", quoted(file_name(request, stem))]
     if request.kind in LOOPS:
-        words += ["--seconds", plain(request.seconds), "--fps", plain(request.fps)]
+        timing = request.timing
+        words += ["--seconds", plain(timing.seconds), "--fps", plain(timing.fps)]
     words += ["--size", "x".join(map(str, request.settings.size))]
     for style in style_names_of(request):
         words += ["--style", quoted(style)]
@@ -333,8 +333,8 @@ def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any
 def _timing(request: ExportRequest) -> dict[str, Any]:
     if request.kind == "html":
         return {"size": request.settings.size}  # the command has another default
-    names = (name for name in option_names(request) if name not in OPTIONS)
-    chosen = {name: getattr(request, name) for name in names}
+    numbers = {**asdict(request.timing), "scale": request.scale}
+    chosen = {name: numbers[name] for name in option_names(request) if name in numbers}
     return {name: value for name, value in chosen.items() if value != FILE_OPTIONS[name].default}
 
 

@@ -12,7 +12,7 @@ import pytest
 from drapery.banner.design import Banner, Layer
 from drapery.errors import DraperyError, OptionError
 from drapery.file_formats import KIND_NAMES, format_of
-from drapery.settings import Settings
+from drapery.settings import LoopSettings, Settings
 from drapery.studio import exports
 from drapery.studio.chosen_scene import scene_choice, what_follows
 from drapery.studio.exports import Export, ExportSlots, count_frames, make, stem_of
@@ -47,7 +47,7 @@ COMMANDS = {
 
 
 def request_of(kind: str) -> ExportRequest:
-    return ExportRequest(BANNER, PICTURE, kind, seconds=0.5, fps=10.0, scale=5)
+    return ExportRequest(BANNER, PICTURE, kind, LoopSettings(0.5, 10.0), scale=5)
 
 
 @pytest.mark.parametrize("kind", COMMANDS)
@@ -80,7 +80,7 @@ def test_a_scene_is_exported_with_the_design_and_the_wind(
 ) -> None:
     scene = scene_choice("vanilla", BANNER, PICTURE)
     assert dict(scene.words) == {"design": TEXT, "wind": "5"}
-    wanted = ExportRequest(BANNER, PICTURE, "gif", seconds=0.25, fps=8.0, scene=scene)
+    wanted = ExportRequest(BANNER, PICTURE, "gif", LoopSettings(0.25, 8.0), scene=scene)
     make(wanted, tmp_path / "page.gif")
     monkeypatch.chdir(tmp_path)
     code, _, err = drapery(*shlex.split(as_command(wanted, stem="line"))[1:])
@@ -162,7 +162,7 @@ def test_a_thread_makes_it_and_reports_progress(tmp_path: Path) -> None:
 
 def test_a_thread_stops_and_leaves_nothing(tmp_path: Path) -> None:
     settings = Settings(size=(128, 128), grid=(4, 7))  # its motion is short, its frames many
-    work = export(ExportRequest(BANNER, settings, "apng", seconds=10.0), tmp_path)
+    work = export(ExportRequest(BANNER, settings, "apng", LoopSettings(10.0)), tmp_path)
     work.start()
     start = time.monotonic()
     while work.done < 2 and time.monotonic() < start + 120:
@@ -223,10 +223,7 @@ def test_an_unforeseen_error_ends_it_with_a_line_and_a_traceback_in_the_log(
     [
         ExportRequest(BANNER, PICTURE, "exe"),
         ExportRequest(BANNER, PICTURE, "../../x"),
-        ExportRequest(BANNER, Settings(), "gif", fps=0.0),
-        ExportRequest(BANNER, Settings(), "gif", seconds=float("nan")),
-        ExportRequest(BANNER, Settings(size=(8192, 8192)), "gif", seconds=60.0),
-        ExportRequest(BANNER, Settings(), "glb", seconds=1e9),
+        ExportRequest(BANNER, Settings(size=(8192, 8192)), "gif", LoopSettings(60.0)),
         ExportRequest(BANNER, Settings(), "face", scale=9999),
         ExportRequest(None, Settings(), "json"),
     ],
@@ -245,7 +242,7 @@ def session() -> Iterator[Session]:
     opened.close()
 
 
-LONG = ExportRequest(BANNER, Settings(size=(128, 128)), "apng", seconds=60.0)
+LONG = ExportRequest(BANNER, Settings(size=(128, 128)), "apng", LoopSettings(60.0))
 
 
 def test_a_second_export_takes_the_place_of_the_first(session: Session) -> None:

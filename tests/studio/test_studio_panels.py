@@ -19,6 +19,7 @@ from drapery.banner import FORMS
 from drapery.errors import OptionError, PackError
 from drapery.match import Match
 from drapery.render import png_bytes
+from drapery.settings import LoopSettings
 from drapery.studio.descriptions import described
 from drapery.studio.design_buttons import DesignButton
 from drapery.studio.exports import Export, ExportRequest
@@ -257,7 +258,7 @@ def test_a_typed_number_is_taken_with_a_comma_and_refused_at_once(
             field = field_of(client, label)
             before = field.props["shown"]["value"]
             field.take(value=text, number=1)
-        now = session.settings.size[0] if label == "Breite" else choice.seconds
+        now = session.settings.size[0] if label == "Breite" else choice.numbers["seconds"]
         if isinstance(taken, str):
             assert taken in said[0]
             assert field.props["shown"]["value"] == before == plain_number(now)
@@ -405,6 +406,22 @@ def test_a_file_has_the_fields_of_the_options_that_apply_to_it(
         names = option_names(file_options.request_of(session, choice))
         fields = [e for e in client.elements.values() if "option" in e.classes and is_seen(e)]
         assert len(fields) == 1 + sum(FIELDS.get(name, 0) for name in names)
+
+    in_page(build)
+
+
+def test_a_file_that_moves_has_the_length_of_the_page_and_a_still_is_made_beside_any(
+    in_page: Callable[..., None],
+) -> None:
+    async def build(client: Client, session: Session) -> None:
+        choice = FileChoice(kind="gif")
+        choice.set(numbers=choice.numbers | {"seconds": 2.0, "fps": 8.0})
+        assert file_options.request_of(session, choice).timing == LoopSettings(2.0, 8.0)
+        choice.set(numbers=choice.numbers | {"seconds": 3000.0})
+        with pytest.raises(OptionError, match=r"seconds 3000 .* use 0\.125 to 450 s at 8 frames/s"):
+            file_options.request_of(session, choice)
+        choice.set(kind="png")
+        assert file_options.request_of(session, choice).kind == "png"
 
     in_page(build)
 

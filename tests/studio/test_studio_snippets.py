@@ -19,7 +19,7 @@ from drapery.banner.formats.shorthand import write
 from drapery.commands import animate, flat, model, render, web
 from drapery.errors import quoted
 from drapery.garments import find_garment
-from drapery.settings import Settings, applicable
+from drapery.settings import LoopSettings, Settings, applicable
 from drapery.studio import snippets
 from drapery.studio.exports import make
 from drapery.studio.snippets import ExportRequest, as_command, as_python
@@ -56,11 +56,13 @@ ORDERS = {
         Banner("red", (Layer("flow", "blue"),), "shield"), Settings(size=(32, 32))
     ),
     "face": ExportRequest(BANNER, SMALL, "face", scale=3),
-    "gif": ExportRequest(BANNER, SMALL, "gif", seconds=0.5, fps=8.0),
-    "glb": ExportRequest(BANNER, SMALL, "glb", seconds=0.5, fps=8.0),
+    "gif": ExportRequest(BANNER, SMALL, "gif", LoopSettings(0.5, 8.0)),
+    "glb": ExportRequest(BANNER, SMALL, "glb", LoopSettings(0.5, 8.0)),
     "json": ExportRequest(BANNER, SMALL, "json"),
     "garment": ExportRequest(BANNER, SMALL_FLAG, garment="flag"),
-    "own": ExportRequest(BANNER, Settings(size=(24, 24)), "glb", 0.2, 10.0, garment="pennants"),
+    "own": ExportRequest(
+        BANNER, Settings(size=(24, 24)), "glb", LoopSettings(0.2, 10.0), garment="pennants"
+    ),
 }
 
 

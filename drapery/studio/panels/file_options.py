@@ -9,7 +9,7 @@ from typing import Any
 from nicegui import ui
 
 from drapery.errors import DraperyError
-from drapery.settings import LOOP_OPTIONS, OPTIONS, Settings
+from drapery.settings import LOOP_OPTIONS, OPTIONS, LoopSettings, Settings
 from drapery.studio.chosen_scene import scene_choice
 from drapery.studio.descriptions import choice_titles, view_title
 from drapery.studio.panels.fields import Fields
@@ -37,12 +37,12 @@ SKY = "#a8c8e8"
 
 @dataclass
 class FileChoice:
-    """The choices that are not options of a picture."""
+    """The choices that are not options of a picture. numbers: those that affect only the file."""
 
     kind: str = "png"
-    seconds: float = LOOP_OPTIONS["seconds"].default
-    fps: float = LOOP_OPTIONS["fps"].default
-    scale: int = FILE_OPTIONS["scale"].default
+    numbers: dict[str, Any] = field(
+        default_factory=lambda: {n: FILE_OPTIONS[n].default for n in (*LOOP_OPTIONS, "scale")}
+    )
     colour: str = SKY
     changed: list[Callable[[], None]] = field(default_factory=list)
 
@@ -55,13 +55,14 @@ class FileChoice:
 
 
 def request_of(session: Session, choice: FileChoice) -> ExportRequest:
-    """The export request for the current state of the page. Raises DesignError."""
+    """The export request for the current state of the page. Raises DesignError or OptionError."""
     # A cape or elytra has a texture instead of a design.
     banner = None if session.settings.texture is not None else banner_of(session.sketch)
     settings = session.settings
     if not session.viewport.request.on:
         settings = settings.changed(wind=0.0)
-    made = choice.kind, choice.seconds, choice.fps, choice.scale
+    times = {name: choice.numbers[name] for name in LOOP_OPTIONS if choice.kind in MOVING}
+    made = choice.kind, LoopSettings(**times), choice.numbers["scale"]
     shown = session.viewport.request
     scene = None if shown.scene is None else scene_choice(shown.scene, banner, settings)
     return ExportRequest(banner, settings, *made, shown.garment, scene, shown.skin)
@@ -93,11 +94,12 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
 
     def number(name: str, label: str) -> None:
         """A number that affects only the file."""
-        get = partial(getattr, choice, name)
+
+        def put(number: float) -> None:
+            choice.set(numbers=choice.numbers | {name: number})
+
         with only(name):
-            fields.number(
-                label, FILE_OPTIONS[name], get, lambda number: choice.set(**{name: number})
-            )
+            fields.number(label, FILE_OPTIONS[name], lambda: choice.numbers[name], put)
 
     with ui.element("div").classes("options"):
         made = [kind for kind in KINDS if kind != "html" or is_module_built()]
