@@ -13,7 +13,7 @@ from drapery.errors import DesignError, OptionError
 from drapery.option import Output, one_of
 from drapery.render.frame import Animation, Frame, enlarge
 from drapery.render.scene import Scene
-from drapery.settings import Options, Settings, check_format, frame_count, settled_for
+from drapery.settings import LoopSettings, Options, Settings, check_format, settled_for
 
 if TYPE_CHECKING:
     from drapery.garments.model import Garment
@@ -95,8 +95,9 @@ def iter_frames(
     from drapery.stage.subjects import loop
 
     design, chosen = _checked(banner, settings, options, "loop")
+    timing = LoopSettings(seconds, fps)
     packs = open_packs(chosen.packs, format=chosen.format)
-    scenes = loop(design, packs, chosen, frame_count(seconds, fps), fps, on_moment)
+    scenes = loop(design, packs, chosen, timing.count, fps, on_moment)
     return draw_scenes(scenes, packs, chosen, loop=True)
 
 
@@ -140,7 +141,7 @@ def save_model(
     chosen = chosen.changed(ground="none")
     packs = open_packs(chosen.packs, format=chosen.format)
     if moves:
-        tick, total = progress or (lambda done, total: None), frame_count(seconds, fps)
+        tick, total = progress or (lambda done, total: None), LoopSettings(seconds, fps).count
         scenes = loop(design, packs, chosen, total, fps, on_moment)
         save_scenes(_counted(scenes, total, tick), path, fps=fps, origin=ORIGINS[origin])
     else:

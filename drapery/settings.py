@@ -723,11 +723,6 @@ LOOP_OPTIONS = option_table(LoopSettings)
 """The options of an animation by name, in the order in which help lists them."""
 
 
-def frame_count(seconds: float, fps: float) -> int:
-    """How many frames an animation of this length [s] has. Raises OptionError."""
-    return LoopSettings(seconds, fps).count
-
-
 def settled(
     settings: Settings,
     subject: Subject,

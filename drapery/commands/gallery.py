@@ -92,12 +92,12 @@ def _play(
     from drapery.render import save_animation
     from drapery.render.encode import check_target
     from drapery.scenes import scene_frames
-    from drapery.settings import frame_count
+    from drapery.settings import LoopSettings
 
     check_target(target, "loop")
     clip = replace(scene.clip, size=size)
     if seconds is not None:
-        clip = replace(clip, count=frame_count(seconds, clip.fps))
+        clip = replace(clip, count=LoopSettings(seconds, clip.fps).count)
     with compile_notice(), progress(scene.name, clip.count) as tick:
         frames = scene_frames(scene, scene.parameters(), clip, backend)
         save_animation(frames, clip.fps, target, total=clip.count, progress=tick)

@@ -68,14 +68,14 @@ def _play(
     from drapery.render import save_animation
     from drapery.render.encode import check_target
     from drapery.scenes import Clip, find_scene, scene_frames
-    from drapery.settings import OPTIONS, frame_count
+    from drapery.settings import OPTIONS, LoopSettings
 
     scene, words = find_scene(name), _words(parameters)
     kind = check_target(out, "still", "loop", "model").kind()
     own = scene.clip
     fps = own.fps if fps is None else fps
     length = own.count / own.fps if seconds is None else seconds
-    clip = Clip(OPTIONS["size"].parse(size), frame_count(length, fps), fps)
+    clip = Clip(OPTIONS["size"].parse(size), LoopSettings(length, fps).count, fps)
     with compile_notice(), progress("frames", clip.count) as tick:
         given = scene.parameters(words)
         if kind == "model":

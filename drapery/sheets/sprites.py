@@ -12,7 +12,7 @@ from drapery.banner.packs import open_packs
 from drapery.errors import OptionError
 from drapery.pictures import draw_scenes
 from drapery.render import Frame, frame_view
-from drapery.settings import ROTATIONS, Settings, frame_count
+from drapery.settings import ROTATIONS, LoopSettings, Settings
 from drapery.stage.subjects import loop
 
 if TYPE_CHECKING:
@@ -53,7 +53,8 @@ def draw_sprites(
     """
     if directions not in (1, 2, 4, 8, 16):
         raise OptionError(f"directions {directions!r}: give 1, 2, 4, 8 or 16")
-    packs, count = open_packs(settings.packs, format=settings.format), frame_count(seconds, fps)
+    count = LoopSettings(seconds, fps).count
+    packs = open_packs(settings.packs, format=settings.format)
     rotations = range(0, ROTATIONS, ROTATIONS // directions)
     turned = [settings.changed(rotation=rotation) for rotation in rotations]
     loops = [list(loop(banner, packs, each, count, fps)) for each in turned]
