@@ -60,6 +60,13 @@ def test_an_unknown_option_is_reported_with_the_nearest_name(drapery: Run, tmp_p
     assert "case 'one': 'wnid' is not an option; did you mean wind?" in err
 
 
+def test_a_length_that_no_loop_has_is_a_fault_of_the_file(drapery: Run, tmp_path: Path) -> None:
+    file = file_of(tmp_path, ONE_CASE + "seconds = 1000\nfps = 8\n")
+    code, _, err = drapery("golden", "check", file)
+    assert (code, err.count("\n")) == (2, 1)
+    assert "case 'one': seconds 1000 is out of range; use 0.125 to 450 s at 8 frames/s" in err
+
+
 @pytest.mark.parametrize("command", ["update", "check"])
 def test_a_folder_that_is_a_file_is_one_line(drapery: Run, tmp_path: Path, command: str) -> None:
     (tmp_path / "taken").write_text("")
