@@ -134,7 +134,7 @@ def is_given(context: typer.Context, name: str) -> bool:
 
 def check_given(context: typer.Context, out: str) -> None:
     """Raise OptionError for an option that is given and that what `out` holds does not show: a
-    still picture, a page of live cloth, or a 3-D file of one pose, which has 0 seconds."""
+    still picture, a page of live cloth, or a 3-D file, which may have one pose and 0 seconds."""
     from drapery.errors import OptionError
     from drapery.file_formats import known_format
 
@@ -142,10 +142,8 @@ def check_given(context: typer.Context, out: str) -> None:
     kind = format.kind() if format else None
     options = {**LOOP_OPTIONS, **NAMED_OPTIONS} if kind == "page" else LOOP_OPTIONS
     for name, option in options.items():
-        refusal = None
-        if kind == "still" or kind == "page":
-            refusal = option.refusal(output=kind)
-        elif format and kind == "model" and not format.moving and context.params[name]:
+        refusal = None if kind == "data" else option.refusal(output=kind)
+        if format and kind == "model" and not format.moving and context.params[name]:
             refusal = f"{name} does nothing for {format.name}, which holds one pose; leave it out"
         if refusal is not None and is_given(context, name):
             raise OptionError(f"{out}: {refusal}")

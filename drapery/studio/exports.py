@@ -6,7 +6,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from drapery import DraperyError, Frame, OptionError
@@ -22,6 +22,7 @@ from drapery.studio.snippets import (
     STILLS,
     ExportRequest,
     file_name,
+    file_values,
     options_for,
     scene_clip,
     scene_of,
@@ -68,7 +69,7 @@ def make(
         save_animation(frames, request.timing.fps, path, progress=lambda done, _: tick(done, total))
     elif request.kind in MODELS:
         given = subject_of(request), path, options_for(request)
-        save_model(*given, progress=tick, on_moment=on_moment, **asdict(request.timing))
+        save_model(*given, progress=tick, on_moment=on_moment, **file_values(request))
         tick(total, total)
     else:
         drawn = _drawn(request)
@@ -102,7 +103,7 @@ def _frames(request: ExportRequest, on_moment: Progress | None = None) -> Iterat
     settings, chosen = options_for(request), scene_of(request)
     if chosen is None:
         subject = subject_of(request)
-        return iter_frames(subject, settings, on_moment=on_moment, **asdict(request.timing))
+        return iter_frames(subject, settings, on_moment=on_moment, **file_values(request))
     scene = find_scene(chosen.name)
     clip, parameters = scene_clip(request, scene), scene.parameters(dict(chosen.words))
     backend = settings.backend if isinstance(settings.backend, str) else "auto"

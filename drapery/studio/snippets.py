@@ -212,7 +212,7 @@ def as_python(
     found, out = drawn_garment(request), _text(file_name(request, stem))
     banner = [] if found is None and request.banner is None else ["banner"]
     settings = _keywords(_changed(request, called or {}))
-    named = [*_keywords(_timing(request)), *settings]
+    named = [*_keywords(file_values(request)), *settings]
     imported, line = _PYTHON[OUTPUTS[request.kind][0] if request.kind in OUTPUTS else request.kind]
     subject = banner or ["None"]
     words = {"drawn": banner + named, "model": [*subject, out, *named], "settings": settings}
@@ -330,7 +330,8 @@ def _changed(request: ExportRequest, called: Mapping[str, str]) -> dict[str, Any
     return changed
 
 
-def _timing(request: ExportRequest) -> dict[str, Any]:
+def file_values(request: ExportRequest) -> dict[str, Any]:
+    """The options that affect only the file, apply to it and differ from their default, by name."""
     if request.kind == "html":
         return {"size": request.settings.size}  # the command has another default
     numbers = {**asdict(request.timing), "scale": request.scale}
@@ -339,7 +340,7 @@ def _timing(request: ExportRequest) -> dict[str, Any]:
 
 
 def _flags(request: ExportRequest, called: Mapping[str, str]) -> Iterator[str]:
-    for name, value in (_timing(request) | _changed(request, called)).items():
+    for name, value in (file_values(request) | _changed(request, called)).items():
         option = FILE_OPTIONS[name]
         flag = option.command_flag
         if option.several:
