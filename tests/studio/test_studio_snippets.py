@@ -19,7 +19,7 @@ from drapery.banner.formats.shorthand import write
 from drapery.commands import animate, flat, model, render, web
 from drapery.errors import quoted
 from drapery.garments import find_garment
-from drapery.settings import LoopSettings, Settings, applicable
+from drapery.settings import LOOP_OPTIONS, LoopSettings, Settings, applicable
 from drapery.studio import snippets
 from drapery.studio.exports import make
 from drapery.studio.snippets import ExportRequest, as_command, as_python
@@ -163,7 +163,7 @@ def test_a_garment_shows_the_design_where_its_file_has_one(tmp_path: Path) -> No
     ],
 )
 def test_the_commands_have_these_options_and_no_others(names, command) -> None:
-    other = {"ctx", "out", "design", "form", "number", "seconds", "fps", "matte", "scale", "back"}
+    other = {"ctx", "out", "design", "form", "number", *LOOP_OPTIONS, "matte", "scale", "back"}
     other |= {"component", "context", "designer", "gallery", "quality", "origin", "to"}
     if command is flat:
         other.add("kind")  # the design of a shield is one by itself
