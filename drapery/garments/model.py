@@ -259,6 +259,8 @@ class GridPiece(GarmentPiece):
     points: particles across and down.
     hem: the width of its lower edge [texels], if another.
     slack: the part of its size between its places at rest; below 1 it is loose.
+    fullness: how much wider the cloth is than `size`, to which it begins gathered in folds, 0 to 1;
+        only with 11 points across or more, and without `hem`.
 
     `GarmentPiece` has its other fields. Edges: top, bottom, left, right, the corners of two of them
     such as top-left, and corners.
@@ -269,6 +271,13 @@ class GridPiece(GarmentPiece):
     points: tuple[Count, Count]
     hem: Extent | None = None
     slack: Annotated[float, Field(strict=True, ge=0.1, le=1)] = 1.0
+    fullness: Annotated[float, Field(strict=True, ge=0, le=1)] = 0.0
+
+    @model_validator(mode="after")
+    def _one_width(self) -> Self:
+        if self.fullness and self.hem is not None:
+            raise ValueError("grid has both fullness and hem; leave one out")
+        return self
 
     @property
     def particles(self) -> int:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from drapery.arrays import Triangles
 from drapery.cloth import Cloth, disc, from_triangles, grid, rotation_about
+from drapery.cloth.gathering import fold_count, gathered_state
 from drapery.elementary import power, sine_of_turns
 from drapery.errors import OptionError
 from drapery.garments.model import (
@@ -121,7 +122,8 @@ def _grid(piece: GridPiece, garment: Garment) -> CutPiece:
     columns, rows = piece.points
     width, height = piece.size
     texel = garment.texel
-    flat = grid(columns, rows, width * texel, height * texel, pins="none", fabric=garment.fabric)
+    full = width * (1 + piece.fullness) if fold_count(columns) else width
+    flat = grid(columns, rows, full * texel, height * texel, pins="none", fabric=garment.fabric)
     across, down = flat.uvs.T
     hem = width if piece.hem is None else piece.hem
     wide = width + (hem - width) * down
@@ -139,7 +141,10 @@ def _grid(piece: GridPiece, garment: Garment) -> CutPiece:
     edges["corners"] = index[[0, 0, -1, -1], [0, -1, 0, -1]]
     size = max(width, hem), height
     made = _whole(piece, cloth, edges, spots, size)
-    return replace(made, start=cloth.rest_positions * piece.slack)
+    start = cloth.rest_positions
+    if full > width:
+        start = gathered_state(cloth, width * texel).positions[0]
+    return replace(made, start=start * piece.slack)
 
 
 def _whole(

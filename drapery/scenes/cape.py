@@ -36,7 +36,7 @@ class CapeParameters(SceneParameters):
     dye: str = parameter("red", "Dye of the cape", choices=DYE_NAMES)
     speed: float = parameter(2.5, "Speed of the walk", (0, MAX_WALK), "m/s")
     wind: float = wind_parameter(0.5, "Wind from ahead, added to the air that the walk meets")
-    grid: tuple[int, int] = grid_parameter((4, 7), "Particles across and down the cape")
+    grid: tuple[int, int] = grid_parameter((11, 11), "Particles across and down the cape")
     thickness: float = thickness_parameter()
     seed: int = seed_parameter()
 

@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from PIL import Image
 from pydantic import ValidationError
 
 from drapery import Banner, draw, iter_frames, mesh_headers, save_model
+from drapery.cloth import max_stretch
 from drapery.commands.app import command_line
 from drapery.errors import OptionError
 from drapery.garments import (
@@ -279,6 +281,29 @@ def test_slack_cloth_begins_with_short_springs() -> None:
     assert np.isclose(np.ptp(cut.cloth.rest_positions[:, 0]) * 16, 12)
     with pytest.raises(ValidationError, match="strip is 4 texels long, its ends are 8 apart"):
         StripPiece(name="rope", shape="strip", ends=((0, 8, 0), (8, 8, 0)), length=4, points=9)
+
+
+def test_a_cape_at_rest_hangs_in_folds_on_shoulders_of_the_games_width() -> None:
+    stand = dressed_player(make_wearer(motion="stand", speed=0.0), wear=("cape",))
+    dressed = Dressed(stand, open_packs(()), replace(stand.settings(), wind=0.0))
+    (cape,), ((last,),) = dressed.cloths, dressed.record(Schedule.still(3.0, dressed.step))
+    columns = find_garment("cape").piece[0].points[0]
+    assert np.isclose(np.ptp(last[:columns, 0]), 10 * TEXEL, rtol=1e-6)
+    for row in last.reshape(-1, columns, 3)[: len(last) // columns // 2]:
+        chord = np.interp(row[:, 0], row[[-1, 0], 0], row[[-1, 0], 2])
+        assert np.ptp(row[:, 2] - chord) > 0.5 * TEXEL
+    assert max_stretch(last[None], cape.cloth) < 0.02
+
+
+def test_fullness_gathers_a_grid_and_leaves_a_coarse_one_flat() -> None:
+    for points, wide in (((10, 5), 8), ((11, 5), 10)):
+        piece = GridPiece(name="cloth", size=(8, 8), points=points, fullness=0.25)
+        (cut,) = cut_pieces(flat(piece=piece))
+        assert np.isclose(np.ptp(cut.cloth.rest_positions[:, 0]) * 16, wide)
+        assert np.isclose(np.ptp(cut.start[:, 0]) * 16, 8)
+        assert (np.ptp(cut.start[:, 2]) > 0) == (wide > 8) and cut.size == (8, 8)
+    with pytest.raises(ValidationError, match="grid has both fullness and hem; leave one out"):
+        GridPiece(name="cloth", size=(8, 8), points=(11, 5), fullness=0.25, hem=9)
 
 
 def test_seams_sew_the_nearest_edges_and_layers_lie_farther_out() -> None:

@@ -149,6 +149,15 @@ def test_a_cape_at_rest_shows_its_own_texels(texture: Path) -> None:
     assert np.array_equal(back, coloured_sheet()[1:17, 12:22])
 
 
+def test_a_cape_in_still_air_hangs_in_folds_on_shoulders_of_the_games_width(texture: Path) -> None:
+    scene = scene_of(None, kind="cape", texture=texture, time=4, wind=0, thickness=0)
+    places = scene.models[0].mesh.positions[: 16 * 31].reshape(31, 16, 3)
+    for row in (0, 10, 20):
+        chord = np.interp(places[row, :, 0], *places[row, [0, -1]][:, [0, 2]].T)
+        assert np.ptp(places[row, :, 2] - chord) > 0.02
+    assert np.isclose(np.ptp(places[0, :, 0]), CAPE_SIZE[0], rtol=0.01)
+
+
 def test_a_cape_is_held_at_the_shoulders_and_waves(texture: Path) -> None:
     first, later = (
         scene_of(None, kind="cape", texture=texture, time=t, wind=9, thickness=0, grid=(5, 9))

@@ -18,6 +18,8 @@ from drapery.style.piece import Piece
 CAPE_MAPPING = cape_mapping(SHEET)
 BACK = 2.6
 """Distance of the cape from the middle of its wearer [texels]; half the body is 2 deep."""
+FULLNESS = 0.2
+"""The cape is so much wider than the shoulders, on which it is gathered to fall in folds."""
 LEAN = 6.0
 """Angle between the game's stiff cape and the back of a player who stands still [degrees]."""
 
@@ -35,7 +37,7 @@ def body(design: Banner | None, packs: Packs, settings: Settings) -> Body:
         "cape/cloth",
     )
     shoulders = np.array(SHOULDERS)
-    cloth = hanging_cloth(settings, piece, shoulders, _wearer())
+    cloth = hanging_cloth(settings, piece, shoulders, _wearer(), FULLNESS)
     cape = Panel(cloth, piece, shoulders, lambda phase: _stiff(settings.thickness))
     return Body((), (cape,))
 
