@@ -1,5 +1,6 @@
 """Steps that change the shape of cloth after the simulation, which they do not affect."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -11,6 +12,7 @@ from drapery.elementary import arctan2, cos, sin
 from drapery.errors import OptionError
 from drapery.mesh import Array, Mesh
 from drapery.render.vectors import dots
+from drapery.style.extrusion import make_shell
 from drapery.style.grids import grid_shell
 from drapery.style.piece import Piece
 from drapery.style.refinement import MAX_SIDE, on_curves
@@ -24,6 +26,8 @@ THINNEST = 0.02
 """Level texels are at least this thick [texels]."""
 WITHIN = 0.48
 """The part of a texel that a face of a block shows, to each side of its middle [texels]."""
+ON_LINE = 1e-9
+"""A vertex so near to the line of a cut is on it, so that no slivers arise."""
 CUBE_FRONT = np.array([[-1.0, 1, 1], [1, 1, 1], [-1, -1, 1], [1, -1, 1]])
 """The four front corners of a cube of edge 2."""
 BLOCK_FACES = np.array(
@@ -171,11 +175,10 @@ def swallow_tail(
     *,
     depth: Annotated[float, Field(ge=0, le=0.9, description="share of the height cut out")] = 0.3,
 ) -> Shape:
-    """Cut a wedge of whole texels out of the lower edge."""
-    across, down = _texels(piece)
-    column, row = np.meshgrid(np.arange(across) + 0.5, np.arange(down) + 0.5)
-    reach = (row - down * (1 - depth)) / max(down * depth, 1e-9)
-    return _cut(piece, positions, np.abs(column / across - 0.5) * 2 >= reach)
+    """Cut a wedge out of the lower edge, along straight lines of the cloth."""
+    return _cut_along(
+        piece, positions, lambda aside, down: np.abs(aside) - (down - 1 + depth) / max(depth, 1e-9)
+    )
 
 
 @costs(4)
@@ -185,12 +188,13 @@ def rounded_hem(
     *,
     depth: Annotated[float, Field(ge=0, le=0.9, description="share of the height it takes")] = 0.3,
 ) -> Shape:
-    """Cut whole texels out of the lower edge so that it is half an ellipse."""
-    across, down = _texels(piece)
-    column, row = np.meshgrid(np.arange(across) + 0.5, np.arange(down) + 0.5)
-    below = np.maximum(row - down * (1 - depth), 0) / max(down * depth, 1e-9)
-    aside = 2 * column / across - 1
-    return _cut(piece, positions, below * below + aside * aside <= 1 + (below == 0))
+    """Cut the lower edge so that it is half an ellipse."""
+
+    def inside(aside: Array, down: Array) -> Array:
+        below = np.maximum(down - 1 + depth, 0) / max(depth, 1e-9)
+        return 1 - below * below - aside * aside
+
+    return _cut_along(piece, positions, inside)
 
 
 @costs(4)
@@ -265,6 +269,43 @@ def _cut(piece: Piece, positions: Array, kept: NDArray[np.bool_]) -> Shape:
     down, across = kept.shape
     fine, places = _resampled(piece, positions, down + 1, across + 1, curved=True)
     return fine.without_cells(kept, CutMapping(piece.shell.uv_mapping)), places
+
+
+def _cut_along(piece: Piece, positions: Array, inside: Callable[[Array, Array], Array]) -> Shape:
+    """The piece without what lies beyond a line.
+
+    inside: how far places are from the line, below 0 beyond it; of their share from the middle to
+        a side, -1 to 1, and from the top down, 0 to 1. Between the corners of texels it is linear.
+    """
+    across, down = _texels(piece)
+    # The middle is a column of vertices, where both sides of a wedge meet.
+    fine, places = _resampled(piece, positions, down + 1, across + across % 2 + 1, curved=True)
+    uvs, sheet = fine.shell.sheet_uvs, fine.shell.sheet
+    away = inside(2 * uvs[:, 0] - 1, uvs[:, 1])
+    away[np.abs(away) < ON_LINE] = 0.0
+    ends = np.sort(sheet[:, [[0, 1], [1, 2], [2, 0]]], axis=-1)
+    crossed = away[ends].prod(axis=-1) < 0
+    edges, new = np.unique(ends[crossed], axis=0, return_inverse=True)
+    number = np.zeros(crossed.shape, np.int64)
+    number[crossed] = len(uvs) + new.reshape(-1)
+    triangles = []
+    for corners, on_edges, cut in zip(sheet.tolist(), number.tolist(), crossed, strict=True):
+        outline = []
+        for corner, on_edge, crosses in zip(corners, on_edges, cut, strict=True):
+            outline += [corner] if away[corner] >= 0 else []
+            outline += [on_edge] if crosses else []
+        triangles += [[outline[0], *outline[k : k + 2]] for k in range(1, len(outline) - 1)]
+    first, last = edges.T
+    share = (away[first] / (away[first] - away[last]))[:, None]
+    uvs, places = (
+        np.concatenate(
+            [given, (1 - share) * given[..., first, :] + share * given[..., last, :]], -2
+        )
+        for given in (uvs, places)
+    )
+    mapping = CutMapping(piece.shell.uv_mapping)
+    shell = make_shell(np.array(triangles, np.int32), uvs, mapping)
+    return replace(fine, shell=shell), places
 
 
 def _held(kept: NDArray[np.bool_]) -> NDArray[np.bool_]:

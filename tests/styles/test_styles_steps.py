@@ -130,9 +130,39 @@ def cells(name: str, **parameters: object) -> np.ndarray:
     return np.bincount(rows, minlength=down) // 2
 
 
-def test_a_rounded_hem_is_widest_above_and_narrowest_below() -> None:
-    kept = cells("rounded-hem", depth=0.25)
-    assert (kept[:30] == 20).all() and (np.diff(kept[30:]) <= 0).all() and 2 <= kept[-1] < 12
+def cut_of(name: str, across: int, depth: float) -> tuple[float, np.ndarray, np.ndarray]:
+    """The share of a cloth that a cut keeps, and the places of its new edge: from the middle to a
+    side, -1 to 1, and from the upper end of the cut down, 0 to 1."""
+    piece = replace(FLAG, size=(across * FLAG.texel, FLAG.size[1]))
+    shell = SHAPE[name](piece, RIPPLES, depth=depth)[0].shell
+    one, two = (
+        shell.sheet_uvs[shell.sheet[:, k]] - shell.sheet_uvs[shell.sheet[:, 0]] for k in (1, 2)
+    )
+    ends = shell.sheet_uvs[shell.rim]
+    inner = ends[~((ends[:, 0] == ends[:, 1]) & np.isin(ends[:, 0], (0.0, 1.0))).any(axis=-1)]
+    aside, down = inner.reshape(-1, 2).T
+    area = np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum() / 2
+    return float(area), 2 * aside - 1, (down - 1 + depth) / depth
+
+
+@pytest.mark.parametrize("across", [20, 7])
+def test_a_swallow_tail_is_cut_along_two_straight_lines(across: int) -> None:
+    area, aside, down = cut_of("swallow-tail", across, 0.3)
+    np.testing.assert_allclose(np.abs(aside), down, atol=1e-9)
+    assert np.isclose(area, 1 - 0.3 / 2) and down.min() < 1e-9 and down.max() > 1 - 1e-9
+
+
+@pytest.mark.parametrize("across", [20, 7])
+def test_a_rounded_hem_is_half_an_ellipse(across: int) -> None:
+    area, aside, down = cut_of("rounded-hem", across, 0.25)
+    assert np.abs(np.hypot(aside, down) - 1).max() < 0.02
+    assert np.isclose(area, 1 - 0.25 + 0.25 * np.pi / 4, atol=0.005)
+
+
+@pytest.mark.parametrize("name", ["swallow-tail", "rounded-hem"])
+def test_a_cut_of_no_depth_keeps_the_whole_cloth(name: str) -> None:
+    shell = SHAPE[name](FLAG, RIPPLES, depth=0.0)[0].shell
+    assert len(shell.sheet) == 2 * 20 * 40
 
 
 def test_a_fringe_is_half_cut_away_and_uneven() -> None:
