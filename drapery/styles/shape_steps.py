@@ -192,7 +192,8 @@ def rounded_hem(
 
     def inside(aside: Array, down: Array) -> Array:
         below = np.maximum(down - 1 + depth, 0) / max(depth, 1e-9)
-        return 1 - below * below - aside * aside
+        away: Array = 1 - below * below - aside * aside
+        return away
 
     return _cut_along(piece, positions, inside)
 
