@@ -38,7 +38,8 @@ class FileFormat:
         is asked for, and the first kind where none is.
     media_type: its name in HTTP.
     single: whether it is one file, with no other beside it.
-    alpha: the transparency of its pixels: of 256 steps, of two, or none.
+    alpha: the transparency of its pixels: of 256 steps, of two, or none: its writer lays them over
+        the matte, or white.
     matte: whether half-transparent pixels can be drawn over a colour.
     lossy: whether a quality may be asked for, at which it loses something; AVIF always does.
     moving: whether a 3-D file holds the motion of a loop.

@@ -59,6 +59,8 @@ class Schedule:
     def loop(count: int, fps: float, step: float, tolerance: float = 0.0) -> "Schedule":
         """The pictures of a loop, when the cloth has settled.
 
+        The first is a whole number of periods after the start, so the wind is as it was there.
+
         count: number of pictures.
         fps: [frames/s].
         step: the longest time step [s].
