@@ -28,6 +28,7 @@ from pydantic_core import PydanticCustomError
 from drapery.banner.design import Banner
 from drapery.banner.dyes import DYE_NAMES
 from drapery.cloth import FABRICS, Fabric
+from drapery.cloth.gathering import fold_count
 from drapery.errors import DraperyError, OptionError, counted, shown
 from drapery.garments.blends import POSE_ENDING, read_blend
 from drapery.garments.loading import load_tables
@@ -277,6 +278,11 @@ class GridPiece(GarmentPiece):
     def _one_width(self) -> Self:
         if self.fullness and self.hem is not None:
             raise ValueError("grid has both fullness and hem; leave one out")
+        if self.fullness and not fold_count(self.points[0]):
+            raise ValueError(
+                f"fullness does nothing with {self.points[0]} points across; use 11 or more,"
+                " or leave it out"
+            )
         return self
 
     @property

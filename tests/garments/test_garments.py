@@ -295,15 +295,22 @@ def test_a_cape_at_rest_hangs_in_folds_on_shoulders_of_the_games_width() -> None
     assert max_stretch(last[None], cape.cloth) < 0.02
 
 
-def test_fullness_gathers_a_grid_and_leaves_a_coarse_one_flat() -> None:
-    for points, wide in (((10, 5), 8), ((11, 5), 10)):
-        piece = GridPiece(name="cloth", size=(8, 8), points=points, fullness=0.25)
-        (cut,) = cut_pieces(flat(piece=piece))
+def test_fullness_gathers_a_grid_that_is_fine_enough_for_folds() -> None:
+    piece = GridPiece(name="cloth", size=(8, 8), points=(11, 5), fullness=0.25)
+    coarse = piece.model_copy(update={"points": (10, 5)})  # as a scene's option does
+    garment = flat(piece=piece)
+    for each, wide in ((coarse, 8), (piece, 10)):
+        (cut,) = cut_pieces(garment.model_copy(update={"piece": (each,)}))
         assert np.isclose(np.ptp(cut.cloth.rest_positions[:, 0]) * 16, wide)
         assert np.isclose(np.ptp(cut.start[:, 0]) * 16, 8)
         assert (np.ptp(cut.start[:, 2]) > 0) == (wide > 8) and cut.size == (8, 8)
+
+
+def test_a_fullness_that_does_nothing_is_refused() -> None:
     with pytest.raises(ValidationError, match="grid has both fullness and hem; leave one out"):
         GridPiece(name="cloth", size=(8, 8), points=(11, 5), fullness=0.25, hem=9)
+    with pytest.raises(ValidationError, match="fullness does nothing with 10 points across; use"):
+        GridPiece(name="cloth", size=(8, 8), points=(10, 5), fullness=0.25)
 
 
 def test_seams_sew_the_nearest_edges_and_layers_lie_farther_out() -> None:
