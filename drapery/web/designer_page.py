@@ -31,6 +31,8 @@ MODULE = "drapery-designer.js"
 TYPES = "drapery-designer.d.ts"
 BANNER_TYPES = "drapery-banner.d.ts"
 PAGE = "index.html"
+EARLY = "drapery-early.js"
+"""The script of the page that keeps what is dropped or pasted before the module has come."""
 WORN_AS = {"cape": FROM_BEHIND, "tabard": FROM_FRONT, SHIELD: FROM_LEFT}
 """How a player in a skin of the user's has the design, and how far it is turned."""
 
@@ -50,6 +52,7 @@ def _files(settings: Settings) -> Iterator[tuple[str, bytes]]:
     yield from files.items()
     yield from module_files(files)
     yield PAGE, (WEB / "designer.html").read_bytes()
+    yield EARLY, (WEB / "designer" / "early.js").read_bytes()
 
 
 def wearers(packs: Packs, settings: Settings) -> Iterator[tuple[str, bytes]]:

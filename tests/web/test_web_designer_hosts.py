@@ -39,6 +39,22 @@ addEventListener("securitypolicyviolation", ({ violatedDirective, blockedURI }) 
   window.blocked.push([violatedDirective, blockedURI]));
 """
 
+EARLY = """
+document.addEventListener("readystatechange", () => {
+  const designer = document.querySelector("drapery-designer");
+  if (document.readyState !== "interactive" || !designer) return;
+  window.isDefined = !!customElements.get("drapery-designer");
+  const [dataTransfer, clipboardData] = [new DataTransfer(), new DataTransfer()];
+  const more = { bubbles: true, cancelable: true };
+  clipboardData.setData("text/plain", "blue skull:white");
+  document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData, ...more }));
+  dataTransfer.items.add(new File(["nothing"], "early.zip"));
+  const events = ["dragover", "drop"].map((type) => new DragEvent(type, { dataTransfer, ...more }));
+  window.stays = events.map((event) => !designer.dispatchEvent(event));
+});
+"""
+"""What comes when the document is parsed and the module has not come yet."""
+
 
 class StrictHandler(Handler):
     """Serves a folder under a strict content security policy."""
@@ -102,6 +118,21 @@ def test_a_strict_policy_blocks_nothing_in_a_page_or_a_frame(page: Any, strict: 
     page.get(f"{strict}/frame.html")
     page.switch_to.frame(0)
     edits(page)
+
+
+def test_what_comes_before_the_module_is_read(page: Any, strict: str) -> None:
+    page.execute_cdp_cmd("Network.enable", {})
+    page.execute_cdp_cmd("Network.emulateNetworkConditions", SLOW)
+    added = page.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": EARLY})
+    try:
+        page.get(f"{strict}/index.html")
+        assert page.execute_script("return [isDefined, stays]") == [False, [True, True]]
+        told = f"{ROOT}.querySelector('.pack')?.textContent ?? ''"
+        wait_until(lambda: page.execute_script(f"return {told}").startswith("early.zip is no zip"))
+        host = "document.querySelector('drapery-designer')"
+        assert page.execute_script(f"return {host}.design") == "blue skull:white"
+    finally:
+        page.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
 
 
 def test_a_page_of_one_file_needs_no_server(page: Any, folder: Path) -> None:
