@@ -216,8 +216,11 @@ def _add_figures(scene: _Message, count: int, worn: Dressed) -> None:
     if cloths:
         shown = [layer for start, _ in header["grip"] for layer in layers(start)]
         header["textures"]["cape"] = {"shown": shown, "area": texture_areas(worn)[1]}
-    elif count > 1:  # the plate of a shield, whose last layer lies on the front
-        header["textures"]["shield"] = {"shown": [layers(runs[1][0])[-1]], "area": whole}
+    elif count > 1:  # a shield: its plate, whose last layer lies on the front, and its handle
+        *bare, front = layers(runs[1][0])
+        bare += [layer for start, _ in runs[2:] for layer in layers(start)]
+        header["textures"]["shield"] = {"shown": [front], "area": whole}
+        header["textures"]["shieldBase"] = {"shown": bare, "area": whole}
 
 
 def _first_message(scene: Scene, cloths: range, settings: Settings) -> _Message:

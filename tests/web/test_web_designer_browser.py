@@ -574,6 +574,32 @@ def test_the_player_of_a_skin_has_the_design_as_tabard_or_shield_too(
     assert not design(chromium).startswith("shield ")
 
 
+def test_the_back_of_a_worn_shield_has_the_texture_of_a_dropped_pack(
+    chromium: Any, site: str
+) -> None:
+    open_designer(chromium, f"{site}/#red")
+    root, shown = run(chromium, ROOT), f"{ROOT}.querySelector('.sky').firstChild"
+
+    def greens() -> float:
+        """How much of the picture is green."""
+        return float(chromium.execute_async_script(SHARES, root)[1])
+
+    skin = base64.b64encode(sheet(64, 0, 0, 255, 255)).decode()
+    chromium.execute_script(DROPPED, root, "me.png", skin)
+    wait_until(lambda: run(chromium, f"{shown}.localName") == "drapery-wearer")
+    press(chromium, ".stage .segments [data-value=shield]")
+    loaded = "performance.getEntriesByType('resource').map((each) => each.name.split('/').at(-1))"
+    wait_until(lambda: "wearer-shield.bin" in run(chromium, loaded))
+    wait_until(lambda: run(chromium, f"!{shown}.shadowRoot.querySelector('canvas').hidden"))
+    chromium.execute_script(f"{shown}.setAttribute('view', 'back')")
+    before = greens()
+    pack = pack_of(shield_base=sheet(128, 0, 220, 0, 255))
+    chromium.execute_async_script(DROP, root, "mine.zip", pack.decode())
+    wait_until(lambda: greens() > before + 0.015)
+    press(chromium, ".without")
+    wait_until(lambda: greens() == before)
+
+
 SILHOUETTE = """
 const [root, done] = arguments;
 (async () => {

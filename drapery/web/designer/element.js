@@ -475,7 +475,8 @@ export class DraperyDesigner extends Element {
   #dressed() {
     this.#worn = this.#wearing();
     const [, faces, garment] = this.#worn;
-    return { skin: this.#skin, garment, sheet: sheetWith(faces.small.face(shownOf(this.#editor.work)), garment !== "shield") };
+    const sheet = sheetWith(faces.small.face(shownOf(this.#editor.work)), garment !== "shield");
+    return { skin: this.#skin, garment, sheet, shieldBase: this.#pack?.shield[""] };
   }
 
   #hold(/** @type {string} */ garment) {

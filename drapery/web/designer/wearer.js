@@ -27,11 +27,13 @@ export function sheetWith(face, isCloth) {
   return sheet;
 }
 
-// Its `pack` has the pixels of the skin, what has the design (a cape, a tabard or a shield), and the sheet of that.
+// Its `pack` has the pixels of the skin, what has the design (a cape, a tabard or a shield), the sheet of that, and the
+// one that a shield has below all patterns, on its back and handle too, where a texture pack has it.
 export class DraperyWearer extends DraperyBanner {
   async source() {
-    const { skin, garment, sheet } = /** @type {any} */ (this.pack);
-    const textures = { skin: wholeSkin(skin), [garment === "shield" ? "shield" : "cape"]: sheet };
+    const { skin, garment, sheet, shieldBase } = /** @type {any} */ (this.pack);
+    const ofShield = { shield: sheet, ...(shieldBase && { shieldBase }) };
+    const textures = { skin: wholeSkin(skin), ...(garment === "shield" ? ofShield : { cape: sheet }) };
     return [`wearer-${garment}${isSlim(skin) ? "-slim" : ""}`, { textures }];
   }
 }
