@@ -39,7 +39,7 @@ SEVERAL = {
     "drapery/comparison/picture.py": {"plays"},  # 1 is said as once
     "drapery/picture_file.py": {"max_side"},
     "drapery/scenes/parameters.py": {"count"},  # numbers of a pair or triple
-    "drapery/settings.py": {"fps"},  # a rate
+    "drapery/settings.py": {"self.fps"},  # a rate
     "drapery/studio/exports.py": {"self._limit"},
     "drapery/studio/panels/text.py": {"len(upload_queue.found)"},  # banners that differ
     "drapery/studio/uploads.py": {"bounds.max_count"},

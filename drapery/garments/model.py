@@ -280,8 +280,8 @@ class GridPiece(GarmentPiece):
             raise ValueError("grid has both fullness and hem; leave one out")
         if self.fullness and not fold_count(self.points[0]):
             raise ValueError(
-                f"fullness does nothing with {self.points[0]} points across; use 11 or more,"
-                " or leave it out"
+                f"fullness does nothing with {counted(self.points[0], 'point')} across;"
+                " use 11 or more, or leave it out"
             )
         return self
 
