@@ -280,7 +280,7 @@ class GridPiece(GarmentPiece):
             raise ValueError("grid has both fullness and hem; leave one out")
         if self.fullness and not fold_count(self.points[0]):
             raise ValueError(
-                f"fullness does nothing with {counted(self.points[0], 'point')} across;"
+                f"fullness does nothing where points across are {self.points[0]};"
                 " use 11 or more, or leave it out"
             )
         return self

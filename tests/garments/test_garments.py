@@ -309,7 +309,9 @@ def test_fullness_gathers_a_grid_that_is_fine_enough_for_folds() -> None:
 def test_a_fullness_that_does_nothing_is_refused() -> None:
     with pytest.raises(ValidationError, match="grid has both fullness and hem; leave one out"):
         GridPiece(name="cloth", size=(8, 8), points=(11, 5), fullness=0.25, hem=9)
-    with pytest.raises(ValidationError, match="fullness does nothing with 10 points across; use"):
+    with pytest.raises(
+        ValidationError, match="fullness does nothing where points across are 10; use"
+    ):
         GridPiece(name="cloth", size=(8, 8), points=(10, 5), fullness=0.25)
 
 
