@@ -42,7 +42,8 @@ from drapery.studio.panels.library import LibraryPanel
 from drapery.studio.records import Design
 from drapery.studio.session import Session, Sessions, StudioConfig
 from drapery.studio.sketch import sketch_of
-from drapery.studio.snippets import KINDS, option_names, plain as plain_number
+from drapery.studio.snippets import FORMATS, KINDS, option_names, plain as plain_number
+from drapery.studio.translation import translated
 
 SCOPE = {
     **{"type": "http", "method": "GET", "path": "/", "scheme": "http", "query_string": b""},
@@ -408,6 +409,16 @@ def test_a_file_has_the_fields_of_the_options_that_apply_to_it(
         assert len(fields) == 1 + sum(FIELDS.get(name, 0) for name in names)
 
     in_page(build)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_file_without_transparency_says_so_by_the_name_of_its_format(kind: str) -> None:
+    format = FORMATS.get(kind)
+    without = format is not None and format.kind() in ("still", "loop") and format.alpha == "none"
+    said = file_options.hint_of(kind)
+    assert ("has no transparency" in said) == without
+    if without:
+        assert said.startswith(f"{format.name} ") and translated(said, "de") != said
 
 
 def test_a_file_that_moves_has_the_length_of_the_page_and_a_still_is_made_beside_any(

@@ -170,7 +170,7 @@ def hint_of(kind: str) -> str:
     if format is not None and format.alpha == "bit":
         return f"A {format.name} has no half transparency and at most {format.max_fps} frames/s."
     if format is not None and format.alpha == "none":
-        return "A video has no transparency: without a background it is white."
+        return f"{format.name} has no transparency: without a background it is white."
     return ""
 
 
