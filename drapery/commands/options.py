@@ -143,7 +143,7 @@ def check_given(context: typer.Context, out: str) -> None:
     options = {**LOOP_OPTIONS, **NAMED_OPTIONS} if kind == "page" else LOOP_OPTIONS
     for name, option in options.items():
         refusal = None if kind == "data" else option.refusal(output=kind)
-        if format and kind == "model" and not format.moving and context.params[name]:
+        if format and kind == "model" and not format.moving and context.params.get(name):
             refusal = f"{name} does nothing for {format.name}, which holds one pose; leave it out"
         if refusal is not None and is_given(context, name):
             raise OptionError(f"{out}: {refusal}")

@@ -2,12 +2,16 @@
 
 import json
 import struct
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 import trimesh
 from conftest import GIVE, Run
+
+from drapery.commands import options
+from drapery.settings import LOOP_OPTIONS
 
 
 def tree_of(path: Path) -> dict[str, Any]:
@@ -49,6 +53,15 @@ def test_one_pose_of_a_banner(drapery: Run, tmp_path: Path) -> None:
         assert drapery("model", "red cross:white", "-o", target, "--seconds", "0")[0] == 0
         assert target.stat().st_size > 1000
     assert "animations" not in tree_of(tmp_path / "a.glb")
+
+
+def test_an_option_that_is_for_animations_alone_does_not_keep_one_pose_from_being_written(
+    drapery: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    alone = replace(LOOP_OPTIONS["fps"], name="of_animations", not_for=("still", "model", "page"))
+    monkeypatch.setattr(options, "LOOP_OPTIONS", {**LOOP_OPTIONS, alone.name: alone})
+    code, _, err = drapery("model", "red", "-o", tmp_path / "a.ply", "--seconds", "0")
+    assert code == 0, err
 
 
 def test_an_unknown_ending_is_refused(drapery: Run, tmp_path: Path) -> None:
