@@ -1,7 +1,8 @@
 """`drapery gallery`: every ready-made scene as an animation, and an index page."""
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -51,6 +52,7 @@ KINDS = {
 }
 
 
+@o.pictured("loop", without=(*o.OF_PICTURES, "fps"))
 def run(
     out: Annotated[Path, typer.Option("-o", "--out", metavar="DIR", help="A folder.")],
     names: Annotated[
@@ -63,6 +65,7 @@ def run(
     kind: Annotated[str, typer.Option("--as", help=f"One of {', '.join(KINDS)}.")] = "gif",
     size: o.SizeOption = "480x480",
     backend: o.BackendOption = "auto",
+    **words: Any,
 ) -> None:
     """Make the gallery: all scenes, and an index page."""
     from drapery.option import one_of
@@ -73,11 +76,12 @@ def run(
     one_of("as", kind, tuple(KINDS))
     scenes = [find_scene(name) for name in names or scene_names()]
     pixels = OPTIONS["size"].parse(size)
+    timed = o.loop_options_of({"seconds": seconds, **words})
     _make_folder(out)
     entries = []
     for scene in scenes:
         file = f"{scene.name}.{kind}"
-        _play(scene, out / file, pixels, seconds, backend)
+        _play(scene, out / file, pixels, timed, backend)
         entries.append({"name": scene.name, "summary": scene.summary, "file": file})
     is_video = KINDS[kind].media_type.startswith("video/")
     with replacing(out / "index.html") as page:
@@ -85,19 +89,21 @@ def run(
 
 
 def _play(
-    scene: "SceneEntry", target: Path, size: tuple[int, int], seconds: float | None, backend: str
+    scene: "SceneEntry",
+    target: Path,
+    size: tuple[int, int],
+    timed: Mapping[str, Any],
+    backend: str,
 ) -> None:
+    """Write a scene as an animation. timed: the options of a loop that are given, by name."""
     from dataclasses import replace
 
     from drapery.render import save_animation
     from drapery.render.encode import check_target
-    from drapery.scenes import scene_frames
-    from drapery.settings import LoopSettings
+    from drapery.scenes import Clip, scene_frames
 
     check_target(target, "loop")
-    clip = replace(scene.clip, size=size)
-    if seconds is not None:
-        clip = replace(clip, count=LoopSettings(seconds, clip.fps).count)
+    clip = Clip.timed(size, replace(scene.clip.timing, **timed))
     with compile_notice(), progress(scene.name, clip.count) as tick:
         frames = scene_frames(scene, scene.parameters(), clip, backend)
         save_animation(frames, clip.fps, target, total=clip.count, progress=tick)

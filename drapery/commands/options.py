@@ -79,6 +79,8 @@ QualityOption = Annotated[
 
 Command = TypeVar("Command", bound=Callable[..., None])
 _SOURCE = {"design": OptionalDesign, "form": FromOption, "number": NumberOption}
+OF_PICTURES = (*_SOURCE, *NAMED_OPTIONS)
+"""What `pictured` leaves out of a command with the options of a loop alone."""
 
 
 def pictured(
@@ -177,8 +179,8 @@ def options_of(words: Mapping[str, Any]) -> Options:
 
 
 def loop_options_of(words: Mapping[str, Any]) -> dict[str, Any]:
-    """The options of a loop among a command's words, as `animate` takes them."""
-    return {name: words[name] for name in LOOP_OPTIONS if name in words}
+    """The options of a loop that are given among a command's words, as `animate` takes them."""
+    return {name: words[name] for name in LOOP_OPTIONS if words.get(name) is not None}
 
 
 def settings_of(words: Mapping[str, Any]) -> Settings:

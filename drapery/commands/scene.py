@@ -1,7 +1,7 @@
 """`drapery scene`: the ready-made scenes, each by one command."""
 
-from collections.abc import Iterator, Sequence
-from typing import Annotated
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any
 
 import typer
 
@@ -12,6 +12,7 @@ CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
 """Options that the command does not know are parameters of the scene: `--script FILE`."""
 
 
+@o.pictured("loop", without=o.OF_PICTURES)
 def run(
     context: typer.Context,
     name: Annotated[
@@ -37,6 +38,7 @@ def run(
     size: o.SizeOption = "480x480",
     style: o.StyleOption = None,
     backend: o.BackendOption = "auto",
+    **words: Any,
 ) -> None:
     """Play a ready-made scene; a still picture shows its last moment.
 
@@ -52,41 +54,41 @@ def run(
         _show_parameters(name)
     else:
         parameters = [*(parameter or []), *_as_parameters(context.args)]
-        _play(name, out, parameters, seconds, fps, size, backend, style or ())
+        timed = o.loop_options_of({"seconds": seconds, "fps": fps, **words})
+        _play(name, out, parameters, timed, size, backend, style or ())
 
 
 def _play(
     name: str,
     out: str,
     parameters: list[str],
-    seconds: float | None,
-    fps: float | None,
+    timed: Mapping[str, Any],
     size: str,
     backend: str,
     style: Sequence[str],
 ) -> None:
+    """Write a scene. timed: the options of a loop that are given, by name."""
+    from dataclasses import replace
+
     from drapery.render import save_animation
     from drapery.render.encode import check_target
     from drapery.scenes import Clip, find_scene, scene_frames
-    from drapery.settings import OPTIONS, LoopSettings
+    from drapery.settings import OPTIONS
 
     scene, words = find_scene(name), _words(parameters)
     kind = check_target(out, "still", "loop", "model").kind()
-    own = scene.clip
-    fps = own.fps if fps is None else fps
-    length = own.count / own.fps if seconds is None else seconds
-    clip = Clip(OPTIONS["size"].parse(size), LoopSettings(length, fps).count, fps)
+    clip = Clip.timed(OPTIONS["size"].parse(size), replace(scene.clip.timing, **timed))
     with compile_notice(), progress("frames", clip.count) as tick:
         given = scene.parameters(words)
         if kind == "model":
             _refuse_looks(out, style, backend)
-            _save_model(scene.play(given, clip), name, out, fps)
+            _save_model(scene.play(given, clip), name, out, clip.fps)
             return
         drawn = scene_frames(scene, given, clip, backend, last=kind == "still", style=style)
         if kind == "still":
             next(drawn).save(out)
         else:
-            save_animation(drawn, fps, out, total=clip.count, progress=tick)
+            save_animation(drawn, clip.fps, out, total=clip.count, progress=tick)
 
 
 def _refuse_looks(out: str, style: Sequence[str], backend: str) -> None:

@@ -97,17 +97,13 @@ def write_sprites(
     from drapery.sheets import draw_sprites
 
     settings = o.settings_of(words | {"size": size})
+    timed = o.loop_options_of({"seconds": seconds, "fps": fps, **words})
     check_sheet(out)
     with compile_notice():
         design = o.design_of(words)
         with progress("directions", directions) as tick:
             loops = draw_sprites(
-                design,
-                settings,
-                directions=directions,
-                seconds=seconds,
-                fps=fps,
-                on_direction=tick,
+                design, settings, directions=directions, on_direction=tick, **timed
             )
     save_sprites(loops, fps, out)
 

@@ -10,11 +10,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from types import ModuleType
-from typing import get_type_hints
+from typing import Self, get_type_hints
 
 from drapery.errors import OptionError, shown
 from drapery.scenes.parameters import SceneParameters, read_parameters
 from drapery.scenes.picture_grid import ClipPicture
+from drapery.settings import LoopSettings
 
 _PACKAGE = __name__.rpartition(".")[0]
 
@@ -31,6 +32,20 @@ class Clip:
     size: tuple[int, int] = (480, 480)
     count: int = 80
     fps: float = 20.0
+
+    @classmethod
+    def timed(cls, size: tuple[int, int], timing: LoopSettings) -> Self:
+        """The film that plays as long as a loop.
+
+        size: width and height [pixels].
+        timing: the options of the loop.
+        """
+        return cls(size, timing.count, timing.fps)
+
+    @property
+    def timing(self) -> LoopSettings:
+        """The options of a loop as long as the film. Raises OptionError beyond their limits."""
+        return LoopSettings(self.count / self.fps, self.fps)
 
 
 @dataclass(frozen=True)

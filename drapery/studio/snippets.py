@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, astuple, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -93,7 +93,7 @@ def scene_clip(request: ExportRequest, scene: SceneEntry) -> Clip:
     size = request.settings.size
     if request.kind in STILLS:
         return replace(scene.clip, size=size)
-    return Clip(size, request.timing.count, request.timing.fps)
+    return Clip.timed(size, request.timing)
 
 
 def subject_of(request: ExportRequest) -> Banner | Garment | None:
@@ -244,8 +244,8 @@ def _player_flags(player: PlayerSettings, called: Mapping[str, str]) -> Iterator
 def _scene_command(request: ExportRequest, scene: SceneChoice, stem: str) -> str:
     words = ["drapery scene", scene.name, "-o", quoted(file_name(request, stem))]
     if request.kind in LOOPS:
-        timing = request.timing
-        words += ["--seconds", plain(timing.seconds), "--fps", plain(timing.fps)]
+        for name, value in asdict(request.timing).items():
+            words += [LOOP_OPTIONS[name].command_flag, plain(value)]
     words += ["--size", "x".join(map(str, request.settings.size))]
     for style in style_names_of(request):
         words += ["--style", quoted(style)]
@@ -263,7 +263,7 @@ def _scene_python(request: ExportRequest, scene: SceneChoice, stem: str) -> str:
         "",
         f"scene = find_scene({_text(scene.name)})",
         f"parameters = scene.parameters({dict(scene.words)!r})",
-        f"clip = Clip({clip.size!r}, {clip.count}, {plain(clip.fps)})",
+        f"clip = Clip({', '.join(map(plain, astuple(clip)))})",
         f"frames = scene_frames(scene, parameters, clip{', last=True' if still else ''}{style})",
         f"next(frames).save({out})"
         if still

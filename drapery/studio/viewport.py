@@ -17,7 +17,7 @@ from drapery.garments import Garment
 from drapery.option import Subject
 from drapery.packs import Packs, open_packs
 from drapery.scenes import find_scene
-from drapery.settings import OPTIONS, LoopSettings, Settings, applicable
+from drapery.settings import OPTIONS, Settings, applicable
 from drapery.studio.art import pattern_names
 from drapery.studio.chosen_scene import scene_choice
 from drapery.studio.document import Document
@@ -249,8 +249,7 @@ class Viewport:
             scene = scene_choice(request.scene, design, settings)
             reduced = tuple(word for name, word in REDUCED if name == scene.name)
             scene = replace(scene, words=(*scene.words, *reduced))
-            clip = find_scene(scene.name).clip
-            timing = LoopSettings(clip.count / clip.fps, clip.fps)
+            timing = find_scene(scene.name).clip.timing
             film = ExportRequest(design, small, "webp", timing, scene=scene)
             return [film], f"scene {request.scene}"
         still = ExportRequest(design, settings, garment=request.garment, skin=request.skin)

@@ -10,6 +10,7 @@ from drapery.scenes import hero_run, julia
 from drapery.scenes.catalogue import Clip, find_scene
 from drapery.scenes.dots import CapeTweaks, dot_grid, step
 from drapery.scenes.hero_cape import cape_dots, hooks_of, worn_dots
+from drapery.settings import LoopSettings
 from drapery.style.block import FLAG_MAPPING, FLAG_SIZE, SCALE
 from drapery.style.grids import grid_shell
 from drapery.style.hero import LEGS, sprite
@@ -63,6 +64,14 @@ def test_the_curtain_plays_at_its_own_rate() -> None:
     own = find_scene("julia").clip
     assert (own.count, own.fps) == (300, 30.0)
     assert find_scene("banner").clip == Clip()
+    assert own.timing == LoopSettings(10.0, 30.0)
+
+
+@pytest.mark.parametrize("fps", [1.0, 12.0, 24000 / 1001, 60.0, 120.0])
+def test_a_film_as_long_as_a_clip_has_its_frames(fps: float) -> None:
+    for count in range(1, 3601):
+        clip = Clip((24, 36), count, fps)
+        assert Clip.timed((24, 36), clip.timing) == clip
 
 
 def cape(tweaks: CapeTweaks) -> tuple[Array, list[float]]:
