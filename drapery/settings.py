@@ -718,6 +718,11 @@ class LoopSettings:
         """How many frames the animation has."""
         return max(1, round(self.seconds * self.fps))
 
+    @property
+    def length(self) -> float:
+        """How long all frames play [s]."""
+        return self.count / self.fps
+
 
 LOOP_OPTIONS = option_table(LoopSettings)
 """The options of an animation by name, in the order in which help lists them."""

@@ -125,6 +125,7 @@ def test_a_loop_counts_its_frames() -> None:
     assert LoopSettings(0.05, 20.0).count == 1
     assert LoopSettings(1 / 3, 10.0).count == 3
     assert LoopSettings(180.0, 20.0).count == 3600
+    assert LoopSettings(1 / 3, 10.0).length == 0.3
 
 
 @pytest.mark.parametrize("flag", ["--seed", "--rotation", "--pixel", "--block-light", "--format"])

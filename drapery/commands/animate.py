@@ -87,7 +87,7 @@ def _save_for(
     """
     from drapery import iter_frames
     from drapery.render import save_for
-    from drapery.settings import LOOP_OPTIONS
+    from drapery.settings import LoopSettings
 
     size = settings.size if "size" in settings.given else None
     with compile_notice():
@@ -97,7 +97,7 @@ def _save_for(
                 design, settings.changed(size=wide), **{**timed, "fps": rate}
             ),
             out,
-            seconds=timed.get("seconds", LOOP_OPTIONS["seconds"].default),
+            seconds=LoopSettings(**timed).length,
             size=size,
             shape=settings.size,
             fps=timed.get("fps"),

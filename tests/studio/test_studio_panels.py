@@ -19,7 +19,7 @@ from drapery.banner import FORMS
 from drapery.errors import OptionError, PackError
 from drapery.match import Match
 from drapery.render import png_bytes
-from drapery.settings import LoopSettings
+from drapery.settings import LOOP_OPTIONS, LoopSettings
 from drapery.studio.descriptions import described
 from drapery.studio.design_buttons import DesignButton
 from drapery.studio.exports import Export, ExportRequest
@@ -383,7 +383,7 @@ def test_a_deleted_design_comes_back_after_another_is_opened(
 
 
 FIELDS = {
-    **dict.fromkeys(("seconds", "fps", "scale", "turntable", "view", "seed", "time"), 1),
+    **dict.fromkeys((*LOOP_OPTIONS, "scale", "turntable", "view", "seed", "time"), 1),
     **dict.fromkeys(("samples", "pixel", "background", "ground", "light", "shadow"), 1),
     "size": 2,
 }

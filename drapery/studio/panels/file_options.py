@@ -33,6 +33,8 @@ from drapery.web.wasm.module import is_module_built
 
 GROUNDS = {"transparent": "transparent", "colour": "one colour"}
 SKY = "#a8c8e8"
+LOOP_LABELS = {"seconds": "Seconds", "fps": "Frames/s"}
+"""What fields of an animation's options say where it is not the option's name."""
 
 
 @dataclass
@@ -108,8 +110,8 @@ def build_options(session: Session, choice: FileChoice) -> Callable[[], None]:
         with only("size"):
             _sides(session, fields)
         with ui.element("div").classes("option-group"):
-            number("seconds", "Seconds")
-            number("fps", "Frames/s")
+            for name in LOOP_OPTIONS:
+                number(name, LOOP_LABELS.get(name, name.replace("_", " ").capitalize()))
             # A scene has cameras of its own.
             with fields.only(lambda: "turntable" in names() and not session.viewport.request.scene):
                 fields.option("turntable", "Turntable")
