@@ -25,8 +25,9 @@ from drapery.errors import OptionError
 from drapery.mesh import Array
 
 BESIDE = 0.5
-"""Cloth keeps at most the distance of a pin from a box at rest and this part of the cell beside the
-pin. A cell could reach farther, but it would stand off, and a row of them would be torn."""
+"""Cloth keeps at most the distance of a particle at rest from a box at rest and this part of the
+cell beside the particle. A cell that is pushed farther in a step is torn, or folded over the next
+one; one beside a pin would stand off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +36,7 @@ class Collisions:
 
     colliders: applied one after another; where two overlap, the last one decides.
     thickness: of the cloth [m]; particles stay half of it away from every collider. Cloth that is
-        thicker than the cells beside its pins stays less far from boxes at rest.
+        thicker than its cells and begins nearer to a box at rest stays less far from boxes.
     order: how finely faces are tested, 1 to 16, see `sample_points`.
     apart: least distance between parts of the cloth itself [m], such as its thickness; None lets it
         pass through itself. Cloths that `sew` joins without seams meet each other.
@@ -91,28 +92,24 @@ def boxes_met(cloth: Cloth, collisions: Collisions) -> BoxColliders | None:
     colliders = collisions.colliders
     if not all(isinstance(c.shape, Box | Plane) and not c.restitution for c in colliders):
         return None
-    radius = max(_radius_at_pins(cloth, collisions), THINNEST)
+    radius = max(_radius_at_start(cloth, collisions), THINNEST)
     surface = cloth.inv_mass, cloth.triangles, cloth.rest_positions
     return box_colliders(*surface, colliders, radius) if colliders else NOTHING
 
 
-def _radius_at_pins(cloth: Cloth, collisions: Collisions) -> float:
+def _radius_at_start(cloth: Cloth, collisions: Collisions) -> float:
     """The distance [m] that a cloth keeps from boxes: half its thickness, see also BESIDE."""
-    radius = collisions.thickness / 2
-    pinned = cloth.inv_mass == 0
     structural = cloth.spring_kind == STRUCTURAL
-    pairs, lengths = cloth.spring_pairs[structural], cloth.spring_length[structural]
-    beside = pinned[pairs].sum(axis=1) == 1
-    if not beside.any():
-        return radius
-    cell = float(lengths[beside].min())
-    pins = cloth.rest_positions[pinned]
-    gaps = [
-        _gaps(pins, collider.shape) for collider in collisions.colliders if collider.path is at_rest
-    ]
-    outside = np.concatenate([[np.inf], *gaps])
-    nearest = float(outside[outside >= 0].min())
-    return min(radius, nearest + BESIDE * cell)
+    cells = np.full(len(cloth.rest_positions), np.inf)
+    for ends in cloth.spring_pairs[structural].T:
+        np.minimum.at(cells, ends, cloth.spring_length[structural])
+    radius = collisions.thickness / 2
+    for collider in collisions.colliders:
+        if collider.path is at_rest:
+            gaps = _gaps(cloth.rest_positions, collider.shape)
+            kept = (gaps + BESIDE * cells)[gaps >= 0]
+            radius = min(radius, float(kept.min(initial=np.inf)))
+    return radius
 
 
 def _gaps(places: Array, shape: Shape) -> Array:

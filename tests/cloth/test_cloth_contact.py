@@ -63,6 +63,26 @@ def test_cloth_that_is_thicker_than_a_cell_is_not_torn_from_its_pins(name: str) 
     assert moving.state.positions[0, :, 1].min() < -36 * UNIT  # it hangs down
 
 
+@pytest.mark.parametrize("pins", ["top", "three-corners"])
+@pytest.mark.parametrize("shape", [(3, 5), (5, 9), (16, 31)])
+def test_thick_cloth_that_begins_below_the_end_of_a_box_hangs_beside_its_pins(
+    shape: tuple[int, int], pins: Any
+) -> None:
+    """An edge from the pin beside the box to the particle below it passes nearer to the box than
+    the pin. To keep the pin's distance it was pushed, and turned its free end aside: cells there
+    were twice as wide as at rest, and a fine grid was pressed together until it could not move."""
+    cloth = grid(*shape, 10 * UNIT, 16 * UNIT, pins=pins)
+    head = Collider(Box((0.0, 4 * UNIT, -2.6 * UNIT), (8 * UNIT, 8 * UNIT, 8 * UNIT)))
+    met = Collisions((head,), thickness=8 * UNIT, apart=8 * UNIT)
+    moving = MovingCloth.begin(cloth, collisions=met)
+    for _ in range(6):
+        moving = moving.advance((Gravity(),), 15)
+        assert max_stretch(moving.state.positions, cloth) < 0.151
+    x = moving.state.positions[0]
+    assert np.abs(x[:, 0]).max() < 6.5 * UNIT
+    assert x[:, 1].min() < -15 * UNIT
+
+
 @pytest.mark.parametrize("method", [SolverDesbrun, SolverXPBD])
 def test_a_crowd_in_contact_equals_its_cloths_alone_on_any_threads(method: Any) -> None:
     # More cloths than a register holds; gusts press some of them against the pole.

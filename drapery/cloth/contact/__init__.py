@@ -50,7 +50,8 @@ What is exact, and what is not
   `LEAST`. Both are 20 µm, since single precision holds no less some metres from the origin.
 - Exact: a box moves on as far as its pose says, and what it touches moves with it.
 - Not exact: the thickness. Passes end at a fiftieth of it (`TOLERANCE`), and the guard keeps cloth
-  out of solids, not at a distance. Friction holds cloth but for a slow slide, as tension and
+  out of solids, not at a distance. Edges at pins keep the distance that they begin with
+  (`depth_at_pin`). Friction holds cloth but for a slow slide, as tension and
   contact take turns. The nearest point of an edge is found to 0.1 mm (`NEAREST`).
 - Not held: cloth between two boxes that move towards each other, or pulled apart by its pins, has
   no free place. It may enter a box or stretch; `State.worst` and a warning say so.

@@ -10,6 +10,7 @@ from drapery.cloth.colliders.vectors import Vector, add_scaled, dot, norm, row, 
 from drapery.cloth.contact.box_data import HELD, MET, TOUCH, BoxContact, Candidates
 from drapery.cloth.contact.box_depths import (
     corner_of,
+    depth_at_pin,
     edge_depth,
     edge_radius,
     face_depth,
@@ -137,6 +138,8 @@ def solve_box(contact: BoxContact, k: int, near: Candidates, since: int) -> floa
             kept = edge_radius(w, radius, frame, i, j)
             part, depth, normal = edge_depth(half, kept, frame, i, j)
             weights = (1.0 - part, part, 0.0)
+            if depth > TOUCH and w[i] * w[j] == 0.0:
+                depth = depth_at_pin(half, kept, frame, (i, j, j), weights, depth)
             if depth > TOUCH and push(half, w, friction, frame, (i, j, j), weights, depth, normal):
                 deepest = max(deepest, depth)
     for n in range(near.counts[k, 2]):
@@ -161,6 +164,8 @@ def solve_face(
         corner = corner_of(half, number)
         if near_face(frame, face, kept, corner):
             weights, depth, normal = face_depth(half, kept, frame, face, corner)
+            if depth > TOUCH and w[face[0]] * w[face[1]] * w[face[2]] == 0.0:
+                depth = depth_at_pin(half, kept, frame, face, weights, depth)
             if depth > TOUCH and push(half, w, friction, frame, face, weights, depth, normal):
                 deepest = max(deepest, depth)
     return deepest

@@ -72,6 +72,26 @@ def particle_radius(w: Array, radius: float, frame: Array, i: int) -> float:
 
 
 @borrowing_kernel
+def depth_at_pin(
+    half: Vector,
+    radius: float,
+    frame: Array,
+    ends: tuple[int, int, int],
+    weights: Vector,
+    depth: float,
+) -> float:
+    """The depth [m] that a point of an edge or a face with a pin is pushed: to its distance at the
+    start of the step, if that is less than the radius that gave the depth.
+
+    Farther out it would take the free ends along by a multiple of the depth, which tears the cells
+    beside the pin: an edge that leaves a pin beside the end of a box may pass nearer to the box
+    than the pin.
+    """
+    d0, _normal = cuboid_distance(half, blend(frame, START, ends, weights))
+    return depth - max(0.0, radius - max(0.0, d0))
+
+
+@borrowing_kernel
 def passes(half: Vector, start: Vector, motion: Vector) -> bool:
     """Whether a segment passes through a box: it lies between all three pairs of planes at once."""
     first, last = 0.0, 1.0
