@@ -49,7 +49,8 @@ def build() -> None:
         sanitize=False,
         tag="dialog",
     )
-    dialog.props('id="shortcuts"').props["aria-label"] = translated("Keyboard shortcuts")
+    dialog.classes("studio-dialog").props('id="shortcuts"')
+    dialog.props["aria-label"] = translated("Keyboard shortcuts")
 
 
 def _text(english: str) -> str:
