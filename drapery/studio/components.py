@@ -117,7 +117,7 @@ class ViewerElement(Element, component="viewer.js"):
         self._session = session
         session.follow(self._show, "sketch", "settings", "packs", "scene")
         viewport = session.viewport
-        self.on("switch", lambda _: viewport.switch())
+        self.on("switch", lambda _: viewport.update(on=not viewport.request.on))
         self.on("still", lambda _: viewport.update(paused=True))
         self.on("stopped", lambda event: viewport.stop_at(_number(event.args)))
         self.on("wind", lambda event: self._steer(event.args))

@@ -4,10 +4,6 @@ const STEERING = {
   KeyW: "w", KeyA: "a", KeyS: "s", KeyD: "d", KeyQ: "q", KeyE: "e",
   ArrowUp: "w", ArrowLeft: "a", ArrowDown: "s", ArrowRight: "d",
 };
-const TEXT_FIELDS =
-  "input:not([type=range], [type=checkbox], [type=radio]), textarea, select, [contenteditable=''],"
-  + " [contenteditable=true], [role=textbox], [role=combobox], [role=listbox]";
-const OVERLAYS = "dialog[open], .q-dialog"; // while one is open, it receives the keys
 
 export class InputHandler {
   // viewer: has host, the element with its canvases, and orbit; see `live_viewer.js`.
@@ -116,7 +112,7 @@ export class InputHandler {
       if (key && this.heldKeys.delete(key)) this.viewer.steer(this.heldKeys);
       return;
     }
-    if (event.defaultPrevented || event.target.closest?.(TEXT_FIELDS) || document.querySelector(OVERLAYS)) return;
+    if (event.defaultPrevented || window.studio?.isTaken(event.target)) return;
     const elsewhere = !inside && event.target !== document.body;
     if (elsewhere && (event.code === "Space" || event.code.startsWith("Arrow"))) return;
     if (event.code === "Space") {

@@ -19,7 +19,7 @@ const between = (value, least, most) => Math.min(most, Math.max(least, value));
 
 // The wind, { speed, heading }, after keys have been held for a time [s]. azimuth: that of the viewer in the
 // frame of the cloth [degrees].
-export function steered({ speed, heading }, keys, azimuth, seconds) {
+function steered({ speed, heading }, keys, azimuth, seconds) {
   const towards = Object.keys(KEY_DIRECTIONS).filter((key) => keys.has(key));
   const angles = towards.map((key) => ((azimuth + KEY_DIRECTIONS[key]) * Math.PI) / 180);
   const [x, z] = [Math.sin, Math.cos].map((part) => angles.reduce((sum, angle) => sum + part(angle), 0));

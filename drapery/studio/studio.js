@@ -1,5 +1,6 @@
 // What the page does without the server: tabs, theme, shortcuts, copying, dropped files.
 const WIDE = window.matchMedia("(min-width: 1000px)");
+const FIELDS = "input:not([type=range], [type=checkbox], [type=radio]), textarea, select, [contenteditable=true], [role=combobox], [role=listbox]";
 const root = () => document.querySelector(".studio");
 
 const studio = (window.studio = {
@@ -9,6 +10,7 @@ const studio = (window.studio = {
   copy,
   tab,
   writeAddress,
+  isTaken,
   earlier: earlierSession(),
   whole: () => whole,
 });
@@ -126,8 +128,9 @@ const KEYS = {
   "alt+arrowup": "up", "alt+arrowdown": "down", escape: "none",
 };
 
-function typing(target) {
-  return target.closest?.("input:not([type=range], [type=checkbox], [type=radio]), textarea, select, [contenteditable=true], [role=combobox], [role=listbox]");
+// Whether keys are for a field, or for the dialog that is open.
+function isTaken(target) {
+  return Boolean(target.closest?.(FIELDS) || document.querySelector("dialog[open], .q-dialog"));
 }
 
 function act(what) {
@@ -144,7 +147,7 @@ window.addEventListener("keydown", (event) => {
     }
     return;
   }
-  if (typing(event.target) || document.querySelector(".q-dialog")) return;
+  if (isTaken(event.target)) return;
   const name =
     (event.ctrlKey || event.metaKey ? "ctrl+" : "") + (event.altKey ? "alt+" : "") +
     (event.shiftKey && event.ctrlKey ? "shift+" : "") + event.key.toLowerCase();
@@ -188,7 +191,7 @@ document.addEventListener("click", (event) => {
 
 // A design pasted anywhere.
 document.addEventListener("paste", (event) => {
-  if (typing(event.target)) return;
+  if (isTaken(event.target)) return;
   const text = event.clipboardData.getData("text/plain");
   if (text.trim()) tell("pasted", text);
 });

@@ -108,10 +108,6 @@ class Viewport:
         if after != before:
             self._document.notify("scene")
 
-    def switch(self) -> None:
-        """Switch the wind on or off."""
-        self.update(on=not self.request.on)
-
     def reset(self) -> None:
         """Let the cloth hang anew, and reset the camera to the named view."""
         self._starts += 1

@@ -63,7 +63,7 @@ def test_what_the_browser_does_itself_is_told_and_changes_no_address(session: Se
     assert scene_key(session) == before
     assert shown["design"] == "red" and shown["view"] == "back" and shown["daylight"] == 0.2
     assert (shown["wind"], shown["direction"], shown["on"]) == (9.0, 40.0, True)
-    session.viewport.switch()
+    session.viewport.update(on=False)
     assert session.viewport.shown["on"] is False and scene_key(session) == before
 
 

@@ -115,7 +115,7 @@ export function plainText(tree) {
 
 /** The shortest SNBT of a tree; tokens that were read stay as they were.
  * @param {any} tree @returns {string} */
-export function writeSnbt(tree) {
+function writeSnbt(tree) {
   if (Array.isArray(tree)) return `[${tree.map(writeSnbt).join(",")}]`;
   if (typeof tree === "string") return inQuotes(tree);
   if (tree instanceof Token) return tree.text;
