@@ -163,7 +163,7 @@ def _narrowed(batch: Batch, lanes: int, wind: LiveWind) -> Batch:
         gusts=gusts,
         width=lanes,
         residuals=cut(batch.residuals),
-        work=_zeros(contact_work(batch.contact, len(batch.x) // 3)),
+        work=_zeros(contact_work(batch.contact, len(batch.x) // 3, batch.itself)),
         strains=cut(batch.strains),
     )
 

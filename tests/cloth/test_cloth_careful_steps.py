@@ -79,7 +79,7 @@ def held(cloth: Cloth, method: Any, state: State, wind: Wind) -> Array:
     free = MovingCloth.begin(cloth, method, start=state).advance((Gravity(), wind)).state
     itself, codes = make_self_contact(cloth, UNIT), []
     for start, end in zip(state.positions, free.positions, strict=True):
-        work = contact_work(NO_CONTACT, len(start))
+        work = contact_work(NO_CONTACT, len(start), itself)
         work.start[:], work.end[:] = start, end
         codes.append(resolve(work, NO_CONTACT, itself, NEVER, 1))
     return np.array(codes) == HELD

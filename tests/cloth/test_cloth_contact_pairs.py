@@ -26,10 +26,11 @@ from drapery.cloth.contact.pair_distance import nearest
 from drapery.cloth.contact.self_contact_data import make_self_contact
 from drapery.cloth.contact.smoothness import Windows, is_smooth, windows_of
 from drapery.cloth.contact.touching_pairs import (
-    add_pairs,
-    empty_pairs,
+    TouchingPairs,
     find_pairs,
+    keep_near,
     particle_bounds,
+    room_for_pairs,
 )
 from drapery.jit import entry_point
 from drapery.mesh import Array
@@ -40,18 +41,28 @@ LIMIT = 0.03
 
 @entry_point
 def search(
-    x0: Any, x: Any, contact: Any, stop: Any, every: Any, found: Any, counts: Any, distances: Any
+    x0: Any,
+    x: Any,
+    contact: Any,
+    stop: Any,
+    every: Any,
+    room: Any,
+    by_all: Any,
+    found: Any,
+    counts: Any,
+    distances: Any,
 ) -> None:
     """Find the pairs by the tree, and those among all pairs of which the bounds overlap.
 
     every: all pairs and their kinds, [P, 5].
+    room, by_all: take the pairs of either way, see `TouchingPairs`.
     found: takes the pairs of either way with their kinds, [2, P, 5]. counts: their numbers, [2].
     distances: takes those of all pairs at the start and the end [m], [P, 2].
     """
     none = Windows(np.empty((4, 0)), np.zeros(0, np.uint8))
-    by_tree = find_pairs(x0, x, contact, none, LIMIT, stop)
+    by_tree = find_pairs(x0, x, contact, none, LIMIT, stop, room)
     bounds = particle_bounds(x0, x, 0.5 * LIMIT, stop)
-    listed, waiting = np.empty_like(every), 0
+    waiting = 0
     for n in range(len(every)):
         i, j, k, m, kind = every[n]
         apart = False
@@ -65,19 +76,17 @@ def search(
                 last = min(last[0], bounds[j, low]), max(last[1], bounds[j, high])
             apart = apart or first[0] > last[1] or last[0] > first[1]
         if not apart:
-            listed[waiting] = every[n]
+            by_all.ends[waiting] = every[n]
             waiting += 1
         for end, places in enumerate((x0, x)):
             _weights, offset = nearest(places, i, j, k, m, kind)
             distances[n, end] = np.sqrt(offset[0] ** 2 + offset[1] ** 2 + offset[2] ** 2)
-    by_all = empty_pairs(waiting)
     counts[0] = len(by_tree.ends)
-    counts[1] = add_pairs(x0, x, LIMIT, stop, listed, waiting, by_all, 0)
+    counts[1] = keep_near(x0, x, LIMIT, stop, by_all, 0, waiting)
     for way, pairs in enumerate((by_tree, by_all)):
         for n in range(counts[way]):
-            for end in range(4):
+            for end in range(5):
                 found[way, n, end] = pairs.ends[n, end]
-            found[way, n, 4] = pairs.edges[n]
 
 
 def all_pairs(contact: Any) -> Any:
@@ -154,8 +163,10 @@ def test_the_tree_finds_the_pairs_that_a_search_among_all_pairs_finds(
     contact = make_self_contact(cloth, 0.02)
     every = all_pairs(contact)
     pairs, counts = np.zeros((2, *every.shape), np.int32), np.zeros(2, int)
+    room = room_for_pairs(contact)
+    by_all = TouchingPairs(np.empty_like(every), np.empty((len(every), 4)))
     distances = np.empty((len(every), 2))
-    search(x0, x, contact, stop, every, pairs, counts, distances)
+    search(x0, x, contact, stop, every, room, by_all, pairs, counts, distances)
     found = known(pairs[0, : counts[0]])
     assert found == known(pairs[1, : counts[1]])
     near = every[(distances < LIMIT * (1 - 1e-6)).any(axis=1)]

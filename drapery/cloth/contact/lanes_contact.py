@@ -28,6 +28,7 @@ from drapery.cloth.contact.geometry import grown, put
 from drapery.cloth.contact.near_boxes import swept_extent
 from drapery.cloth.contact.self_contact import meet_one
 from drapery.cloth.contact.self_contact_data import NOT_ITSELF, SelfContact
+from drapery.cloth.contact.touching_pairs import TouchingPairs, room_for_pairs
 from drapery.cloth.contact.velocities import moved_velocity
 from drapery.cloth.kernels import load_lanes
 from drapery.cloth.sheet_kernels import lane_of
@@ -73,7 +74,7 @@ class ContactWork(NamedTuple):
     """start, end: places of one cloth at the start and the end of a step [m], [N, 3]. solved: where
     its solver left it at the end, [N, 3]. starts, ends: poses of the boxes, [K, 12]. extents: the
     lowest and the highest coordinates of what each box keeps free [m], [K, 6]. near: see
-    `Candidates`."""
+    `Candidates`. pairs: room for those that touch, see `TouchingPairs`."""
 
     start: Array
     end: Array
@@ -82,9 +83,12 @@ class ContactWork(NamedTuple):
     ends: Array
     extents: Array
     near: Candidates
+    pairs: TouchingPairs
 
 
-def contact_work(contact: BoxContact, particles: int = 0) -> ContactWork:
+def contact_work(
+    contact: BoxContact, particles: int = 0, itself: SelfContact = NOT_ITSELF
+) -> ContactWork:
     """Arrays for the contact of one cloth at a time."""
     return ContactWork(
         np.empty((particles, 3)),
@@ -94,6 +98,7 @@ def contact_work(contact: BoxContact, particles: int = 0) -> ContactWork:
         np.empty((len(contact.halves), 12)),
         np.empty((len(contact.halves), 6)),
         candidate_arrays(contact),
+        room_for_pairs(itself),
     )
 
 
@@ -121,7 +126,7 @@ def resolve(work: Any, boxes: Any, itself: Any, limit: Any, careful: int) -> int
     careful is 1, `TORN` where the step has to be made again."""
     reset_tracks(work.near)
     contact = contact_of(boxes, work)
-    met = meet_one(work.start, work.end, itself, contact, work.near)
+    met = meet_one(work.start, work.end, itself, contact, work.near, work.pairs)
     if careful == 0 and is_torn(work, boxes, itself, met):
         return TORN
     if not is_long(work.end, limit):
@@ -138,7 +143,7 @@ def resolve(work: Any, boxes: Any, itself: Any, limit: Any, careful: int) -> int
     # The way back would lead into a box that moves, or in which the cloth begins.
     stays = not boxes_move(work) and begins_free(work, contact)
     if stays and go_back(work.start, work.end, limit):
-        meet_one(work.start, work.end, itself, contact, work.near)
+        meet_one(work.start, work.end, itself, contact, work.near, work.pairs)
     return LONG if is_long(work.end, limit) else MET
 
 
@@ -148,7 +153,7 @@ def is_held(work: Any, itself: Any, contact: Any, limit: Any, rounds: int) -> bo
     spring is too long in the end."""
     for _ in range(rounds):
         shorten_long(work.end, limit)
-        meet_one(work.start, work.end, itself, contact, work.near)
+        meet_one(work.start, work.end, itself, contact, work.near, work.pairs)
         if not is_long(work.end, limit):
             return True
     return False
@@ -215,7 +220,7 @@ def resolve_block(
     Returns how far the boxes that moved a particle moved there [m], [last - first, N], and whether
     a spring is still too long.
     """
-    work, long = contact_work(boxes, x.shape[1]), False
+    work, long = contact_work(boxes, x.shape[1], itself), False
     work.starts[:], work.ends[:] = boxes.starts, boxes.ends
     carried = np.zeros((block[1] - block[0], x.shape[1]))
     for cloth in range(*block):

@@ -49,27 +49,28 @@ def shorten_unsafe(
     changed: the last turn in which each particle was moved, [N]; it is set. turn: 0 at first,
     then 1, 2, ...; only pairs of which a particle was moved since the turn before are tested again.
     """
-    found, starts = False, pairs.starts
-    for n in range(len(pairs.ends)):
-        i, j, k, m = pairs.ends[n, 0], pairs.ends[n, 1], pairs.ends[n, 2], pairs.ends[n, 3]
+    found, ends, offsets = False, pairs.ends, pairs.offsets
+    for n in range(len(ends)):
+        i, j, k, m, edges = ends[n, 0], ends[n, 1], ends[n, 2], ends[n, 3], ends[n, 4]
         if max(max(changed[i], changed[j]), max(changed[k], changed[m])) < turn - 1:
             continue
+        start = offsets[n, 3]
         # Along one direction the gap is a concave function of time, so it is least at an end.
-        gap = gap_along(row(pairs.normals, n), x, i, j, k, m, pairs.edges[n])
-        least = least_distance(starts[n], thickness)
-        if gap > least + CLOSE * starts[n] and starts[n] > 0.0:
+        gap = gap_along(row(offsets, n), x, i, j, k, m, edges)
+        least = least_distance(start, thickness)
+        if gap > least + CLOSE * start and start > 0.0:
             continue
         if w[i] + w[j] + w[k] + w[m] == 0.0:
             continue  # nothing can keep pins apart
-        if longest_relative(x0, x, i, j, k, m, pairs.edges[n]) <= starts[n] - least:
+        if longest_relative(x0, x, i, j, k, m, edges) <= start - least:
             continue
-        part = safe_part(x0, x, i, j, k, m, pairs.edges[n], starts[n], least)
+        part = safe_part(x0, x, i, j, k, m, edges, start, least)
         if part < 1.0:
             found = True
             part = 0.0 if stop else CAREFUL * part
             for end in range(4):
-                shorten(x0, x, w, pairs.ends[n, end], part)
-                changed[pairs.ends[n, end]] = turn
+                shorten(x0, x, w, ends[n, end], part)
+                changed[ends[n, end]] = turn
     return found
 
 

@@ -43,7 +43,14 @@ FRICTION = 0.3
 
 
 @kernel
-def meet_one(x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near: Candidates) -> int:
+def meet_one(
+    x0: Array,
+    x: Array,
+    contact: SelfContact,
+    boxes: BoxContact,
+    near: Candidates,
+    room: TouchingPairs,
+) -> int:
     """Resolve the contacts of one cloth with itself and with boxes; returns 0, `MET` or `HELD`, see
     `box_data`.
 
@@ -52,19 +59,24 @@ def meet_one(x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near:
     met = meet_close_boxes(x0, x, boxes, near) if len(boxes.halves) > 0 else 0
     if len(contact.triangles) == 0:
         return met
-    return max(meet_itself(x0, x, contact, boxes, near), met)
+    return max(meet_itself(x0, x, contact, boxes, near, room), met)
 
 
 @kernel
 def meet_itself(
-    x0: Array, x: Array, contact: SelfContact, boxes: BoxContact, near: Candidates
+    x0: Array,
+    x: Array,
+    contact: SelfContact,
+    boxes: BoxContact,
+    near: Candidates,
+    room: TouchingPairs,
 ) -> int:
     """Resolve the contacts of one cloth with itself, after those with boxes; returns the same as
     `meet_one`. If there is none, nothing is changed."""
     windows = windows_of(x, contact)
     if is_all_smooth(windows, contact.levels):
         return 0
-    pairs = find_pairs(x0, x, contact, windows, REACH * contact.thickness, False)
+    pairs = find_pairs(x0, x, contact, windows, REACH * contact.thickness, False, room)
     if len(pairs.ends) == 0:
         return 0
     wanted, meets_boxes, met = x.copy(), len(boxes.halves) > 0, MET
@@ -94,7 +106,7 @@ def meet_itself(
         # Parts that were stopped may be in the way of others, or out of place beside others, of
         # which no pair is known.
         every = Windows(windows.tangents, windows.known[:0])
-        pairs = find_pairs(x0, x, contact, every, STOPPED * contact.thickness, True)
+        pairs = find_pairs(x0, x, contact, every, STOPPED * contact.thickness, True, room)
         if make_safe(x0, x, wanted, pairs, contact, boxes, near, True):
             met = HELD
     return met
@@ -115,9 +127,9 @@ def list_near(x: Array, pairs: TouchingPairs, limit: float, active: NDArray[np.i
     how many there are."""
     count, ends = 0, pairs.ends
     for n in range(len(ends)):
-        i, j, k, m = ends[n, 0], ends[n, 1], ends[n, 2], ends[n, 3]
+        i, j, k, m, edges = ends[n, 0], ends[n, 1], ends[n, 2], ends[n, 3], ends[n, 4]
         active[count] = n
-        count += gap_along(row(pairs.normals, n), x, i, j, k, m, pairs.edges[n]) < limit
+        count += gap_along(row(pairs.offsets, n), x, i, j, k, m, edges) < limit
     return count
 
 
@@ -126,20 +138,20 @@ def push_pairs(
     x0: Array, x: Array, pairs: TouchingPairs, active: NDArray[np.int32], contact: SelfContact
 ) -> float:
     """Push apart the active pairs that are too near, one after another; returns the deepest [m]."""
-    w, deepest = contact.inv_mass, 0.0
+    w, deepest, ends = contact.inv_mass, 0.0, pairs.ends
     for n in active:
-        i, j, k, m = pairs.ends[n, 0], pairs.ends[n, 1], pairs.ends[n, 2], pairs.ends[n, 3]
-        normal, limit = row(pairs.normals, n), contact.thickness
-        if gap_along(normal, x, i, j, k, m, pairs.edges[n]) >= limit:
+        i, j, k, m, edges = ends[n, 0], ends[n, 1], ends[n, 2], ends[n, 3], ends[n, 4]
+        normal, limit = row(pairs.offsets, n), contact.thickness
+        if gap_along(normal, x, i, j, k, m, edges) >= limit:
             continue
-        weights, offset = nearest(x, i, j, k, m, pairs.edges[n])
+        weights, offset = nearest(x, i, j, k, m, edges)
         length = norm(offset)
         # A pair that has crossed in this step goes back to the side of its start.
         crossed = dot(offset, normal) < 0.0
         if length >= limit and not crossed:
             continue
         if contact.piece[i] == contact.piece[k]:
-            _weights, at_rest = nearest(contact.rest, i, j, k, m, pairs.edges[n])
+            _weights, at_rest = nearest(contact.rest, i, j, k, m, edges)
             limit = min(limit, AT_REST * norm(at_rest))
         depth = limit - length
         if crossed:

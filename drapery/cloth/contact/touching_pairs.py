@@ -37,16 +37,20 @@ MOST = 2 * 3 * LEAF * LEAF + 9 * LEAF * LEAF
 
 
 class TouchingPairs(NamedTuple):
-    """Pairs in a step: particles [P, 4]; a particle and a face, or two edges if `edges` [P] is 1.
-
-    normals: from the nearest point of the second to the nearest of the first at the start [P, 3].
-    starts: distance at the start [m], [P].
-    """
+    """Pairs in a step, or room for them. ends: particles of each, and 1 if it is two edges, 0 if it
+    is a particle and a face, [P, 5]. offsets: unit vector from the nearest point of the second part
+    to the nearest of the first at the start, and their distance [m], [P, 4]."""
 
     ends: NDArray[np.int32]
-    edges: NDArray[np.uint8]
-    normals: Array
-    starts: Array
+    offsets: Array
+
+
+def room_for_pairs(contact: SelfContact) -> TouchingPairs:
+    """Room for most cloths' pairs and those that are listed beside them; none for a cloth that
+    passes through itself."""
+    faces = len(contact.triangles)
+    count = 8 * faces + 2 * LISTED if faces else 0
+    return TouchingPairs(np.empty((count, 5), np.int32), np.empty((count, 4)))
 
 
 @kernel
@@ -57,9 +61,10 @@ def find_pairs(
     windows: Windows,
     limit: float,
     stop: bool,
+    room: TouchingPairs,
 ) -> TouchingPairs:
     """All pairs that may come within a limit [m] in this step, in an order that depends on the
-    cloth alone.
+    cloth alone. They lie in `room` unless they are too many for it.
 
     windows: no pairs are wanted in those that are smooth; none if all pairs are.
     stop: whether each particle may also stop anywhere on its way, so that others run into it.
@@ -68,24 +73,18 @@ def find_pairs(
     of_edges = joined_bounds(bounds, contact.edges)
     of_faces = joined_bounds(bounds, contact.triangles)
     tree = tree_of(of_faces, contact.begin)
-    listed = np.empty((LISTED, 5), np.int32)
-    pairs, count = empty_pairs(8 * len(of_faces) + LISTED), 0
+    pairs, count = room, 0
     stack, depth = np.empty((DEEPEST, 2), np.int32), 1
     stack[0] = 1
     # References are counted in this loop, as `pairs` is set in it, so it is left to do little.
     while depth > 0:
-        depth, waiting = list_pairs(
-            bounds, of_edges, of_faces, tree, contact, windows, stack, depth, listed
-        )
-        if count + waiting > len(pairs.ends):
+        if count + LISTED > len(pairs.ends):
             pairs = longer(pairs)
-        count = add_pairs(x0, x, limit, stop, listed, waiting, pairs, count)
-    return TouchingPairs(
-        pairs.ends[:count],
-        pairs.edges[:count],
-        pairs.normals[:count],
-        pairs.starts[:count],
-    )
+        depth, last = list_pairs(
+            bounds, of_edges, of_faces, tree, contact, windows, stack, depth, pairs.ends, count
+        )
+        count = keep_near(x0, x, limit, stop, pairs, count, last)
+    return TouchingPairs(pairs.ends[:count], pairs.offsets[:count])
 
 
 @borrowing_kernel
@@ -99,15 +98,16 @@ def list_pairs(
     stack: NDArray[np.int32],
     depth: int,
     listed: NDArray[np.int32],
+    first: int,
 ) -> tuple[int, int]:
-    """List pairs whose bounds overlap until all are listed or the list is nearly full; returns the
-    new depth of the stack and the number of listed pairs.
+    """List pairs whose bounds overlap, from row `first` on, until all are listed or LISTED of them;
+    returns the new depth of the stack and the end of the list.
 
     stack: pairs of equally deep nodes that are still to be searched, [DEEPEST, 2].
     """
     particles, triangles, edges = contact.particles, contact.triangles, contact.edges
-    begin, leaves, waiting = contact.begin, len(tree) // 2, 0
-    while depth > 0 and waiting + MOST <= LISTED:
+    begin, leaves, last = contact.begin, len(tree) // 2, first
+    while depth > 0 and last + MOST <= first + LISTED:
         depth -= 1
         m, n = stack[depth, 0], stack[depth, 1]
         if not overlap(row(tree, m), top(tree, m), row(tree, n), top(tree, n)):
@@ -118,13 +118,11 @@ def list_pairs(
             depth = add_children(stack, depth, m, n)
             continue
         a, b = m - leaves, n - leaves
-        waiting = list_corners(bounds, of_faces, particles, triangles, begin, a, b, listed, waiting)
+        last = list_corners(bounds, of_faces, particles, triangles, begin, a, b, listed, last)
         if b > a:
-            waiting = list_corners(
-                bounds, of_faces, particles, triangles, begin, b, a, listed, waiting
-            )
-        waiting = list_edges(of_edges, edges, begin, a, b, listed, waiting)
-    return depth, waiting
+            last = list_corners(bounds, of_faces, particles, triangles, begin, b, a, listed, last)
+        last = list_edges(of_edges, edges, begin, a, b, listed, last)
+    return depth, last
 
 
 @borrowing_kernel
@@ -164,10 +162,10 @@ def list_corners(
     a: int,
     b: int,
     listed: NDArray[np.int32],
-    waiting: int,
+    last: int,
 ) -> int:
     """List the particles of leaf a with the faces of leaf b whose bounds overlap; returns the new
-    number of pairs in the list."""
+    end of the list."""
     for n in range(begin[a, 0], begin[a + 1, 0]):
         p = particles[n]
         low, high = row(bounds, p), top(bounds, p)
@@ -175,10 +173,10 @@ def list_corners(
             if overlap(low, high, row(of_faces, t), top(of_faces, t)):
                 i, j, k = triangles[t, 0], triangles[t, 1], triangles[t, 2]
                 if p not in (i, j, k):
-                    listed[waiting, 0], listed[waiting, 1], listed[waiting, 2] = p, i, j
-                    listed[waiting, 3], listed[waiting, 4] = k, 0
-                    waiting += 1
-    return waiting
+                    listed[last, 0], listed[last, 1], listed[last, 2] = p, i, j
+                    listed[last, 3], listed[last, 4] = k, 0
+                    last += 1
+    return last
 
 
 @borrowing_kernel
@@ -189,7 +187,7 @@ def list_edges(
     a: int,
     b: int,
     listed: NDArray[np.int32],
-    waiting: int,
+    last: int,
 ) -> int:
     """The same for the edges of both leaves."""
     for e in range(begin[a, 2], begin[a + 1, 2]):
@@ -198,50 +196,34 @@ def list_edges(
             if overlap(low, high, row(of_edges, f), top(of_edges, f)):
                 i, j, k, m = edges[e, 0], edges[e, 1], edges[f, 0], edges[f, 1]
                 if i not in (k, m) and j not in (k, m):
-                    listed[waiting, 0], listed[waiting, 1], listed[waiting, 2] = i, j, k
-                    listed[waiting, 3], listed[waiting, 4] = m, 1
-                    waiting += 1
-    return waiting
-
-
-@kernel
-def empty_pairs(count: int) -> TouchingPairs:
-    return TouchingPairs(
-        np.empty((count, 4), np.int32),
-        np.empty(count, np.uint8),
-        np.empty((count, 3)),
-        np.empty(count),
-    )
+                    listed[last, 0], listed[last, 1], listed[last, 2] = i, j, k
+                    listed[last, 3], listed[last, 4] = m, 1
+                    last += 1
+    return last
 
 
 @kernel
 def longer(pairs: TouchingPairs) -> TouchingPairs:
     """The same pairs with twice the space."""
     count = len(pairs.ends)
-    more = empty_pairs(2 * count)
+    more = TouchingPairs(np.empty((2 * count, 5), np.int32), np.empty((2 * count, 4)))
     for i in range(count):  # slices would compile numba's messages about shapes, for seconds
-        for end in range(4):
-            more.ends[i, end] = pairs.ends[i, end]
-        more.edges[i], more.starts[i] = pairs.edges[i], pairs.starts[i]
-        put(more.normals, i, 0, row(pairs.normals, i))
+        for n in range(5):
+            more.ends[i, n] = pairs.ends[i, n]
+        for n in range(4):
+            more.offsets[i, n] = pairs.offsets[i, n]
     return more
 
 
 @borrowing_kernel
-def add_pairs(
-    x0: Array,
-    x: Array,
-    limit: float,
-    stop: bool,
-    listed: NDArray[np.int32],
-    waiting: int,
-    pairs: TouchingPairs,
-    count: int,
+def keep_near(
+    x0: Array, x: Array, limit: float, stop: bool, pairs: TouchingPairs, first: int, last: int
 ) -> int:
-    """Add the listed pairs that may come within the limit; returns the new count."""
-    for n in range(waiting):
-        i, j, k, m = listed[n, 0], listed[n, 1], listed[n, 2], listed[n, 3]
-        edges = listed[n, 4]
+    """Keep of the listed pairs first..last those that may come within the limit, from `first` on;
+    returns their end."""
+    count, ends, offsets = first, pairs.ends, pairs.offsets
+    for n in range(first, last):
+        i, j, k, m, edges = ends[n, 0], ends[n, 1], ends[n, 2], ends[n, 3], ends[n, 4]
         direction = between_middles(x0, i, j, k, m, edges)
         gap = swept_gap(direction, x0, x, i, j, k, m, edges, stop)
         if gap > 0.0 and gap * gap > limit * limit * dot(direction, direction):
@@ -250,11 +232,10 @@ def add_pairs(
         length = norm(offset)
         normal = scale(1.0 / length, offset) if length > 0.0 else UP
         if swept_gap(normal, x0, x, i, j, k, m, edges, stop) <= limit:
-            pairs.ends[count, 0], pairs.ends[count, 1] = i, j
-            pairs.ends[count, 2], pairs.ends[count, 3] = k, m
-            pairs.edges[count] = edges
-            put(pairs.normals, count, 0, normal)
-            pairs.starts[count] = length
+            ends[count, 0], ends[count, 1], ends[count, 2] = i, j, k
+            ends[count, 3], ends[count, 4] = m, edges
+            put(offsets, count, 0, normal)
+            offsets[count, 3] = length
             count += 1
     return count
 

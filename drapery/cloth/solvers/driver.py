@@ -251,7 +251,7 @@ def _advance(
         batch = with_addresses(batch, solver_state)
 
     def work(first: int, last: int) -> None:
-        mine = batch._replace(work=contact_work(batch.contact, len(cloth.inv_mass)))
+        mine = batch._replace(work=contact_work(batch.contact, len(cloth.inv_mass), batch.itself))
         solver_state.kernel(first, last, plan, mine, *rest)
 
     count = len(state.positions)
