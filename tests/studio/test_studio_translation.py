@@ -2,16 +2,19 @@
 
 import ast
 import asyncio
+import inspect
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from fastapi import Request
-from nicegui import Client, core
+from nicegui import Client, core, ui
 from nicegui.element import Element
 from nicegui.page import page
+from nicegui.slot import Slot
 
 from drapery import Banner
 from drapery.banner import DYES, FORMS, PATTERNS
@@ -19,10 +22,12 @@ from drapery.settings import OPTIONS
 from drapery.studio import translation
 from drapery.studio.descriptions import named
 from drapery.studio.design_catalogue import own_designs
-from drapery.studio.page import build as build_page
+from drapery.studio.page import PANELS, build as build_page
+from drapery.studio.panels.file_options import hint_of
 from drapery.studio.panels.live import garment_descriptions, scene_summaries
 from drapery.studio.session import Sessions
 from drapery.studio.sketch import sketch_of
+from drapery.studio.snippets import KINDS
 from drapery.studio.translation import GAME_LANGUAGES, catalogue, chosen, translated
 
 SCOPE = {
@@ -67,6 +72,7 @@ def test_every_text_and_choice_of_the_page_is_in_the_catalogues(
     """Names of methods, grids, designs and forms of text are the same in all languages."""
     asked: set[str] = set()
     shown: set[str] = set()
+    drawn: set[str] = set()
 
     def note(text: str, to: str = "") -> str:
         asked.add(text)
@@ -76,22 +82,42 @@ def test_every_text_and_choice_of_the_page_is_in_the_catalogues(
         if name.startswith("drapery.studio.") and hasattr(module, "translated"):
             monkeypatch.setattr(module, "translated", note)
 
+    # Timers, which build the panels in tabs behind among others, wait for a browser.
+    later: list[tuple[Slot, Callable[[], object]]] = []
+    start = ui.timer
+
+    def timer(interval: float, call: Callable[[], object], once: bool = False, **more: Any) -> Any:
+        made = start(interval, call, once=once, **more)
+        if once and made.parent_slot:
+            later.append((made.parent_slot, call))
+        return made
+
     async def build() -> None:
+        monkeypatch.setattr(ui, "timer", timer)
         monkeypatch.setattr(core, "loop", asyncio.get_running_loop())
         with Client(page("/"), request=Request(SCOPE)) as client:
             session = sessions.open()
             build_page(session, sessions)
+            for slot, call in later:
+                with slot:
+                    done = call()
+                    if inspect.isawaitable(done):
+                        await done
             for summary in (*scene_summaries().values(), *garment_descriptions().values()):
                 named("", summary)
+            asked.update(hint_of(kind) for kind in KINDS)
             session.take(sketch_of(Banner.parse("white creeper:black")))
             for element in client.elements.values():
                 shown.update(texts_of(element))
+                if element.default_slot.children:
+                    drawn.add(str(element.props.get("id", "")).removeprefix("panel-"))
 
     sessions = Sessions()
     try:
         asyncio.run(build())
     finally:
         sessions.close_all()
+    assert sorted(panel.title for panel in PANELS if panel.name not in drawn) == []
     same = {*OPTIONS["solver"].choices, *FORM_TITLES}
     left = {text for text in asked - same if WORD.search(without_marks(text))}
     assert sorted(text for text in left if not is_german(text)) == []
