@@ -134,9 +134,12 @@ def is_given(context: typer.Context, name: str) -> bool:
     return source is not None and source.name != "DEFAULT"
 
 
-def check_given(context: typer.Context, out: str) -> None:
+def check_given(context: typer.Context, out: str, *, without: Sequence[str] = ()) -> None:
     """Raise OptionError for an option that is given and that what `out` holds does not show: a
-    still picture, a page of live cloth, or a 3-D file, which may have one pose and 0 seconds."""
+    still picture, a page of live cloth, or a 3-D file, which may have one pose and 0 seconds.
+
+    without: options that the command takes for every file.
+    """
     from drapery.errors import OptionError
     from drapery.file_formats import known_format
 
@@ -147,7 +150,7 @@ def check_given(context: typer.Context, out: str) -> None:
         refusal = None if kind == "data" else option.refusal(output=kind)
         if format and kind == "model" and not format.moving and context.params.get(name):
             refusal = f"{name} does nothing for {format.name}, which holds one pose; leave it out"
-        if refusal is not None and is_given(context, name):
+        if refusal is not None and name not in without and is_given(context, name):
             raise OptionError(f"{out}: {refusal}")
 
 

@@ -11,6 +11,9 @@ from drapery.commands.notices import compile_notice, progress
 CONTEXT = {"allow_extra_args": True, "ignore_unknown_options": True}
 """Options that the command does not know are parameters of the scene: `--script FILE`."""
 
+_OF_MOMENTS = ("seconds", "fps")
+"""Options of a loop that files without motion have too: they say which moment is the last."""
+
 
 @o.pictured("loop", without=o.OF_PICTURES)
 def run(
@@ -45,6 +48,7 @@ def run(
     A scene's parameters are options too: `--steps 4`, `--pixel-snap`.
     """
     from drapery.errors import OptionError
+    from drapery.render.encode import check_target
 
     if show_list:
         _show_list()
@@ -53,30 +57,31 @@ def run(
     elif out is None:
         _show_parameters(name)
     else:
+        kind = check_target(out, "still", "loop", "model").kind()
+        o.check_given(context, out, without=_OF_MOMENTS)
         parameters = [*(parameter or []), *_as_parameters(context.args)]
         timed = o.loop_options_of({"seconds": seconds, "fps": fps, **words})
-        _play(name, out, parameters, timed, size, backend, style or ())
+        _play(name, out, kind, parameters, timed, size, backend, style or ())
 
 
 def _play(
     name: str,
     out: str,
+    kind: str,
     parameters: list[str],
     timed: Mapping[str, Any],
     size: str,
     backend: str,
     style: Sequence[str],
 ) -> None:
-    """Write a scene. timed: the options of a loop that are given, by name."""
+    """Write a scene. kind: of the file. timed: the given options of a loop, by name."""
     from dataclasses import replace
 
     from drapery.render import save_animation
-    from drapery.render.encode import check_target
     from drapery.scenes import Clip, find_scene, scene_frames
     from drapery.settings import OPTIONS
 
     scene, words = find_scene(name), _words(parameters)
-    kind = check_target(out, "still", "loop", "model").kind()
     clip = Clip.timed(OPTIONS["size"].parse(size), replace(scene.clip.timing, **timed))
     with compile_notice(), progress("frames", clip.count) as tick:
         given = scene.parameters(words)

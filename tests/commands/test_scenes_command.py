@@ -2,12 +2,15 @@
 
 import json
 import re
+from dataclasses import replace
 from html import escape
 
 import pytest
 from PIL import Image
 
+from drapery.commands import options, scene
 from drapery.scenes.catalogue import find_scene, scene_names
+from drapery.settings import LOOP_OPTIONS
 
 
 def test_the_list_names_every_scene(drapery) -> None:
@@ -77,6 +80,20 @@ def test_what_a_3d_file_cannot_hold_is_refused(
     code, _, err = drapery("scene", *words, "--seconds", "0.1")
     assert code == 2 and fault in err and err.strip().count("\n") == 0
     assert not (tmp_path / "x.glb").exists()
+
+
+def test_an_option_that_is_for_animations_alone_is_refused_for_other_files(
+    drapery, tmp_path, monkeypatch
+) -> None:
+    alone = replace(LOOP_OPTIONS["fps"], name="of_animations", not_for=("still", "model", "page"))
+    monkeypatch.setattr(options, "LOOP_OPTIONS", {**LOOP_OPTIONS, alone.name: alone})
+    with_it = options.pictured("loop", without=options.OF_PICTURES)(scene.run.__wrapped__)
+    monkeypatch.setattr(scene, "run", with_it)
+    monkeypatch.chdir(tmp_path)
+    for name in ("x.glb", "x.obj", "x.png"):
+        code, _, err = drapery("scene", "blocky", "-o", name, "--of-animations", "5")
+        assert code == 2 and f"{name}: of_animations does nothing for" in err
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
