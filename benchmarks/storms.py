@@ -99,6 +99,7 @@ SEEN = (
     Storm({}, CAPE | {"fabric": "linen", "grid": (3, 5), "pins": "three-corners", "seed": 468}),
     Storm({}, CAPE | {"wind": 30.4, "fabric": "felt", "grid": (9, 9), "pins": "three-corners"}),
     Storm({}, CAPE | {"thickness": 2.0, "solver": "pbd", "grid": (5, 9), "wind": 0.0}),
+    Storm({"player": {"wear": ("scarf",), "motion": "glide"}}, {"wind": 8.6, "direction": 180.0}),
 )
 """Settings that were seen to tear."""
 

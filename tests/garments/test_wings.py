@@ -157,5 +157,5 @@ def test_cloth_that_begins_in_its_wearer_is_a_fault() -> None:
     wing = elytra.piece[0]
     inwards = wing.model_copy(update={"turn": (10.0, 180.0, 12.0)})
     refused = pytest.raises(OptionError, match=r"left begins \d+\.\d mm inside what it meets; pin")
-    with pytest.warns(UserWarning, match="pins or colliders pull cloth 0 apart"), refused:
+    with refused:
         check_garment(elytra.model_copy(update={"piece": (inwards,)}), 0.1)

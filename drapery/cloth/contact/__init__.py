@@ -53,8 +53,9 @@ What is exact, and what is not
   out of solids, not at a distance. Edges at pins keep the distance that they begin with
   (`depth_at_pin`). Friction holds cloth but for a slow slide, as tension and
   contact take turns. The nearest point of an edge is found to 0.1 mm (`NEAREST`).
-- Not held: cloth between two boxes that move towards each other, or pulled apart by its pins, has
-  no free place. It may enter a box or stretch; `State.worst` and a warning say so.
+- Not held: cloth between two boxes that move towards each other has no free place. It keeps its
+  limit of strain and enters a box (`without_boxes`). Cloth that pins pull apart stretches;
+  `State.worst` and a warning say so.
 
 Constants
 ---------

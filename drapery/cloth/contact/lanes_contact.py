@@ -140,9 +140,16 @@ def resolve(work: Any, boxes: Any, itself: Any, limit: Any, careful: int) -> int
             return MET
         if longest_square(work.end, limit) > least:
             put_all(work.end, best)
-    # The way back would lead into a box that moves, or in which the cloth begins.
-    stays = not boxes_move(work) and begins_free(work, contact)
-    if stays and go_back(work.start, work.end, limit):
+    if boxes_move(work):
+        # Between boxes that move towards each other is no free place: cloth enters them.
+        free = without_boxes(contact)
+        put_all(work.end, work.solved)
+        if is_held(work, itself, free, limit, STRAIN_ROUNDS):
+            return MET
+        if go_back(work.start, work.end, limit):
+            meet_one(work.start, work.end, itself, free, work.near, work.pairs)
+    elif begins_free(work, contact) and go_back(work.start, work.end, limit):
+        # Cloth that begins in a box has no way back.
         meet_one(work.start, work.end, itself, contact, work.near, work.pairs)
     return LONG if is_long(work.end, limit) else MET
 
@@ -174,6 +181,23 @@ def without_friction(contact: Any) -> BoxContact:
         contact.ends,
         contact.halves,
         np.zeros(len(contact.friction)),
+        contact.radius,
+        contact.reach,
+        contact.edges,
+        contact.triangles,
+        contact.inv_mass,
+        contact.bands,
+    )
+
+
+@kernel
+def without_boxes(contact: Any) -> BoxContact:
+    """No boxes, for the same cloth."""
+    return BoxContact(
+        contact.starts[:0],
+        contact.ends[:0],
+        contact.halves[:0],
+        contact.friction[:0],
         contact.radius,
         contact.reach,
         contact.edges,
