@@ -171,7 +171,7 @@ OPENED_ELSEWHERE = {
     *("banner/letters.py", "banner/packs/folders.py", "testing/failures.py"),
     *("web/bundle.py", "web/designer_page.py", "web/package.py", "web/page.py"),
     *("web/tables.py", "web/wasm/build.py", "web/wasm/compiler.py", "web/wasm/module.py"),
-    *("studio/design_catalogue.py", "studio/icons.py", "studio/page.py", "studio/translation.py"),
+    *("studio/design_catalogue.py", "studio/page.py", "studio/translation.py"),
     # files that the program itself has written
     *("batch/jobs.py", "batch/stores.py", "batch/worker.py", "serve/app.py"),
     *("studio/garment_store.py", "studio/panels/library.py", "studio/viewport.py"),

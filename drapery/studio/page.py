@@ -65,7 +65,7 @@ PANELS = (
     PagePanel("packs", "Packs", "side", "Bring in"),
     PagePanel("export", "Export", "side", "Get out"),
     PagePanel("embed", "Embed", "side", "Get out"),
-    PagePanel("loom", "Loom", "side", "Get out"),
+    PagePanel("loom", "Loom", "side", "Get out", "loom"),
     PagePanel("library", "Library", "side", "Library"),
     PagePanel("start", "Start", "side", "Library"),
     PagePanel("compare", "Compare", "side", "Library"),
@@ -211,14 +211,14 @@ def _head(session: Session) -> None:
 
 
 def _panels(session: Session, place: str) -> dict[PagePanel, ui.element]:
-    """Build the panels of a place; returns those that are in tabs behind, still empty."""
+    """Build the panels of a place; returns modules' that are in tabs behind, still empty."""
     hidden = {}
     for panel in PANELS:
         if panel.place == place:
             section = ui.element("section").classes(f"panel panel-{panel.name}")
             section.props(f'id="panel-{panel.name}"')
             section.props["aria-label"] = translated(panel.title)
-            if panel.place == "side" and panel.name != FIRST_TAB:
+            if panel.place == "side" and panel.name != FIRST_TAB and not panel.part:
                 hidden[panel] = section
                 continue
             if panel.name == FIRST_TAB:

@@ -150,13 +150,9 @@ class Session(Document):
         self.viewport.banner_options = {name: before.as_given(name) for name in banner}
         self.viewport.update(**{kind: shown.get(kind) for kind in known})
 
-    def lay_out(self, sketch: Sketch, *, same: bool = False) -> None:
-        """Replace the design; this can be undone.
-
-        same: whether it is still the same design, such as after layers without effect are removed.
-        """
-        origin = self.sketch.origin if same else secrets.randbelow(MAX_ORIGIN)
-        self.edit(replace(sketch, origin=origin))
+    def lay_out(self, sketch: Sketch) -> None:
+        """Begin with another design; this can be undone."""
+        self.edit(replace(sketch, origin=secrets.randbelow(MAX_ORIGIN)))
 
     def _take_off_wall(self) -> None:
         if self.sketch.kind == "shield" and self.settings.placement == "wall":

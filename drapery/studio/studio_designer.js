@@ -77,7 +77,7 @@ export class StudioDesigner {
     const placed = {
       tools: [parts.undo, parts.redo, fresh, parts.random, parts.clear, parts.kind],
       dyes: parts.dyes, layers: [this.title, ...parts.layers, parts.status], patterns: parts.patterns ?? [],
-      face: [parts.flat], other: [this.other], steps: [this.strip],
+      loom: [make("h2", {}, say("loom")), parts.loom], face: [parts.flat], other: [this.other], steps: [this.strip],
     };
     for (const [name, nodes] of Object.entries(placed)) document.querySelector(`[data-part="${name}"]`)?.replaceChildren(...nodes);
   }

@@ -264,20 +264,22 @@ def test_the_loom_stops_at_six_and_says_what_is_needed(page: Any) -> None:
     # Soft edges show through a second layer of the same pattern; a whole field hides all below.
     paste(page, "white " + "creeper:lime base:black " * 3 + "flower:red")
     open_tab(page, "loom")
-    wait_until(lambda: len(page.find_elements(By.CSS_SELECTOR, ".steps li")) == 7)
+    wait_until(lambda: len(page.find_elements(By.CSS_SELECTOR, "ol.loom li")) == 7)
     assert (
         find(page, ".panel-layers .head .hint").text == "7 of 16 · Over 6 layers: by commands only"
     )
-    goods = find(page, ".goods").text.splitlines()
-    assert goods == [
-        *("6 white wool", "1 stick", "3 lime dye", "3 black dye", "1 red dye"),
-        *("2 paper", "1 creeper head", "1 oxeye daisy"),
-        "1 creeper banner pattern kept, crafted from paper and creeper head",
-        "1 flower banner pattern kept, crafted from paper and oxeye daisy",
-        "1 loom kept",
+    assert find(page, "#panel-loom .warning").text == "Over 6 layers: by commands only"
+    assert find(page, "ul.loom").text.splitlines() == [
+        *("6 × Wool (White)", "1 × Stick", "3 × Dye (Lime)", "3 × Dye (Black)", "1 × Dye (Red)"),
+        *("2 × Paper", "1 × Creeper head", "1 × Oxeye daisy"),
+        *("1 × Banner pattern: Creeperkept", "1 × Banner pattern: Flowerkept"),
     ]
-    page.find_element(By.XPATH, "//button[.='Leave out']").click()
+    button = "//button[.='Leave out layers that change nothing: 5']"
+    page.find_element(By.XPATH, button).click()
     is_now(page, "white base:black flower:red")
+    wait_until(lambda: len(page.find_elements(By.CSS_SELECTOR, "ol.loom li")) == 2)
+    assert not find(page, "#panel-loom button").is_displayed()
+    assert not find(page, "#panel-loom .warning").is_displayed()
 
 
 def test_two_browsers_have_their_own_sessions(page: Any, studio: Studio) -> None:

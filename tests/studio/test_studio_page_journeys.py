@@ -141,7 +141,7 @@ def test_the_flag_of_a_country(page: Any) -> None:
     click(page, "button[aria-label=Undo]")
     is_now(page, "blue half_horizontal_bottom:yellow")
     open_tab(page, "loom")
-    assert "yellow dye" in text(page, "#panel-loom .goods")
+    assert "Dye (Yellow)" in text(page, "#panel-loom ul.loom")
 
 
 def test_a_word(page: Any) -> None:

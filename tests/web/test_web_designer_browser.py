@@ -290,13 +290,22 @@ def test_the_loom_names_materials_and_steps(chromium: Any, site: str) -> None:
     open_designer(chromium, f"{site}/#white,creeper:lime,flow:red,border:lime")
     lines = f"[...{ROOT}.querySelectorAll('ARG.loom li')].map((e) => e.textContent)"
     assert run(chromium, lines.replace("ARG", "ol")) == [
-        *("Lime: Creeper", "Red: Flow", "Lime: Border"),
+        *("Lime: CreeperBanner pattern: Creeper", "Red: FlowBanner pattern: Flow", "Lime: Border"),
     ]
     assert run(chromium, lines.replace("ARG", "ul")) == [
         *("6 × Wool (White)", "1 × Stick", "2 × Dye (Lime)", "1 × Dye (Red)", "1 × Paper"),
         *("1 × Creeper head", "1 × Banner pattern: Creeperkept"),
         "1 × Banner pattern: Flowkept, from trial chambers",
     ]
+
+
+def test_layers_that_change_nothing_are_left_out(chromium: Any, site: str) -> None:
+    open_designer(chromium, f"{site}/#white,creeper:lime,skull:blue,base:red,border:lime")
+    button = f"{ROOT}.querySelector('details.panel button')"
+    wait_until(lambda: run(chromium, f"{button}.textContent.endsWith(': 2')"))
+    run(chromium, f"{button}.click()")
+    wait_until(lambda: run(chromium, f"{button}.hidden"))
+    assert run(chromium, f"{HOST}.design") == "white base:red border:lime"
 
 
 FILM = """
@@ -436,8 +445,9 @@ def test_a_language_is_chosen_and_kept(chromium: Any, site: str) -> None:
 def test_controls_have_names(chromium: Any, site: str) -> None:
     open_designer(chromium, site)
     nameless = f"""[...{ROOT}.querySelectorAll('button, input, select, textarea')].filter((e) =>
-      !(e.getAttribute('aria-label') || e.innerText || e.labels?.[0]?.innerText).trim()).length"""
-    assert run(chromium, nameless) == 0
+      !(e.getAttribute('aria-label') || e.textContent || e.labels?.[0]?.innerText || '').trim()
+    ).length"""
+    wait_until(lambda: run(chromium, nameless) == 0)
     assert run(chromium, f"{ROOT}.querySelector('.status').getAttribute('role')") == "status"
 
 

@@ -6,6 +6,7 @@ import { PatternGrid, dyeButtons, segments } from "./controls.js";
 import { HIDDEN, drawPixels, iconButton, make } from "./dom.js";
 import { unlike } from "./faces.js";
 import { LayerList } from "./layers.js";
+import { recipe } from "./loom.js";
 import { changedLayer, duplicatedLayer, movedLayer, shownOf, withLayer, withoutLayer, workOf } from "./model.js";
 import { LIMITS, TEXTS, TITLES } from "./tables.js";
 
@@ -147,6 +148,18 @@ export class Editor {
     this.change({ ...this.work, kind });
   }
 
+  // The layers that change nothing that is seen; not those that are hidden.
+  get unseen() {
+    const { base, layers } = this.work;
+    return this.faces?.unseen({ base, layers: layers.filter(({ hidden }) => !hidden) }) ?? [];
+  }
+
+  leaveOut() {
+    const { unseen, work } = this;
+    this.chosen = null;
+    this.change({ ...work, layers: work.layers.filter((each) => !unseen.includes(each)) });
+  }
+
   // Words; arrow functions, because others call them too.
 
   /** @param {string} key @param {Record<string, any>} [values] @returns {string} */
@@ -175,7 +188,7 @@ export class Editor {
   }
 
   // The parts, of which a page shows those that it wants: status, tools, kind, dyes, patterns (null without
-  // faces), layers and the flat face.
+  // faces), layers, the recipe for the loom and the flat face.
   build() {
     const { say, acts } = this;
     const patterns = (this.faces?.patterns ?? []).map((name) => ({ name, title: this.patternTitle(name), caption: this.caption(name), words: this.words[name] ?? name }));
@@ -188,7 +201,8 @@ export class Editor {
     const [heading, hint, count] = [make("h2", { class: "mode" }), make("span", { class: "hint" }), make("span", { class: "hint" })];
     const done = make("button", { type: "button", class: "quiet", onclick: () => acts.select(null) }, say("add"));
     const empty = make("p", { class: "hint" }, say("noLayers"));
-    this.controls = { dyes, grid, list, undo, redo, kind, heading, hint, count, done, empty };
+    const [over, idle, steps] = [make("p", { class: "warning" }, say("loomNot", { most: LIMITS.loomLayers })), make("button", { type: "button", hidden: true, onclick: () => this.leaveOut() }), make("div", { class: "recipe" })];
+    this.controls = { dyes, grid, list, undo, redo, kind, heading, hint, count, done, empty, over, idle, steps };
     this.parts = {
       status: make("p", { class: "status", role: "status" }),
       undo, redo,
@@ -198,6 +212,7 @@ export class Editor {
       dyes: [make("div", { class: "mode-line" }, heading, hint, done), dyes.group],
       patterns: grid && [make("div", { class: "search" }, make("h2", {}, say("patterns")), grid.field, grid.count), grid.nothing, grid.grid],
       layers: [make("div", { class: "head" }, make("h2", {}, say("layers")), count), empty, list.list],
+      loom: make("div", { class: "recipe" }, over, idle, steps),
       flat: make("canvas", { class: "flat", ...HIDDEN }),
       find: grid?.field,
     };
@@ -215,8 +230,8 @@ export class Editor {
     ui.kind.show(work.kind);
     ui.undo.disabled = !this.history.past.length;
     ui.redo.disabled = !this.history.future.length;
-    const isOverLoom = shownOf(work).layers.length > LIMITS.loomLayers;
-    ui.count.textContent = this.say("layersCount", { count: work.layers.length, most: TABLES.maxLayers }) + (isOverLoom ? ` · ${this.say("loomNot", { most: LIMITS.loomLayers })}` : "");
+    ui.over.hidden = shownOf(work).layers.length <= LIMITS.loomLayers;
+    ui.count.textContent = this.say("layersCount", { count: work.layers.length, most: TABLES.maxLayers }) + (ui.over.hidden ? "" : ` · ${ui.over.textContent}`);
     ui.empty.hidden = work.layers.length > 0;
     this.#showMode();
     this.host.show();
@@ -234,12 +249,15 @@ export class Editor {
     ui.dyes.show(layer?.dye ?? (at === "field" ? work.base : this.dye));
   }
 
-  // Previews of all patterns, once a frame.
+  // Previews of all patterns, and what else takes long to draw, once a frame.
   #showFaces() {
     this.#frame = 0;
-    const { work, faces, chosen } = this;
-    const { grid } = this.controls;
+    const { work, faces, chosen, unseen } = this;
+    const { grid, idle, steps } = this.controls;
     if (!faces || !grid) return;
+    idle.hidden = !unseen.length;
+    idle.textContent = this.say("leaveOut", { count: unseen.length });
+    steps.replaceChildren(...recipe(shownOf(work), faces, this));
     const known = work.layers.map((layer, at) => ({ ...layer, at })).filter(({ hidden, pattern }) => !hidden && faces.patterns.includes(pattern));
     const others = known.filter(({ at }) => at !== chosen);
     const place = typeof chosen === "number" ? others.filter(({ at }) => at < chosen).length : others.length;

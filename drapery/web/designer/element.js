@@ -11,7 +11,6 @@ import { menu, numberField, segments } from "./controls.js";
 import { drawPixels, icon, kept, make } from "./dom.js";
 import { ENGLISH, Editor } from "./editor.js";
 import { Faces } from "./faces.js";
-import { materials } from "./loom.js";
 import { MOTION, History, shownOf, workOf, writeHash, writeShorthand } from "./model.js";
 import { readPack } from "./pack.js";
 import { readHash, readPasted } from "./pasted.js";
@@ -25,8 +24,6 @@ const CHOSEN = ["fabric", "view", "daylight"]; // which a package has its own of
 const OF_CLOTH = ["wind", "direction", "fabric", "placement"]; // what no shield has
 const OF_WEARER = ["wind", "direction", "daylight"];
 const BREEZE = { ...MOTION, wind: 6 }; // in which an editor starts
-/** @type {Record<string, string>} */
-const FOUND = { globe: "fromCartographer", piglin: "fromBastion", flow: "fromTrial", guster: "fromTrial" }; // pattern items
 const NARROW = 704; // a page so narrow hides the motion until it is wanted [px]
 const STORED = "drapery-designer"; // the key of the history in the browser's storage, before the page's path
 const LANGUAGE = ":language";
@@ -255,7 +252,7 @@ export class DraperyDesigner extends Element {
     const link = make("button", { type: "button", onclick: () => this.#copy(this.#link(), "copyLink") }, say("copyLink"));
     const png = make("button", { type: "button", onclick: () => this.#try(() => this.#save()) }, say("png"));
     const film = make("button", { type: "button", onclick: () => this.#film(film) }, say("animation"));
-    const loom = make("details", { class: "panel" });
+    const loom = make("details", { class: "panel" }, make("summary", {}, say("loom")), this.#editor.parts.loom);
     const embed = make("button", { type: "button", onclick: () => this.#copy(this.#embed(), "copyEmbed") }, say("copyEmbed"));
     const field = make("input", { type: "text", class: "paste", placeholder: say("pasteHint"), "aria-label": say("paste"), "aria-describedby": "paste-fault", spellcheck: false, autocomplete: "off",
       onkeydown: (/** @type {KeyboardEvent} */ event) => event.key === "Enter" && this.#read(field.value) });
@@ -266,7 +263,7 @@ export class DraperyDesigner extends Element {
     const bare = make("button", { type: "button", class: "bare", hidden: !this.#skin, onclick: () => this.#dress(null) }, say("withoutSkin"));
     const openPack = make("button", { type: "button", onclick: () => chosen.click() }, say("openPack"));
     const read = make("button", { type: "button", onclick: () => this.#read(field.value) }, say("read"));
-    Object.assign(this.#ui, { version, command, about, copy, field, wrong, loom, film, pack, without });
+    Object.assign(this.#ui, { version, command, about, copy, field, wrong, film, pack, without });
     return make("section", { class: "side", "aria-label": `${say("layers")}, ${say("share")}` },
       make("div", { class: "panel" }, ...this.#editor.parts.layers),
       make("div", { class: "panel" }, make("h2", {}, say("share")),
@@ -312,7 +309,6 @@ export class DraperyDesigner extends Element {
     ui.sky.style.setProperty("--day", String(motion.daylight));
     this.#showPause();
     this.#showCommand();
-    this.#showLoom(shownOf(work));
   }
 
   /** What the live element has; null for what is the package's own.
@@ -353,18 +349,6 @@ export class DraperyDesigner extends Element {
     if (text === null) about.textContent = this.#editor.say("formLacks", { version: this.#versionTitle(this.#version), reason });
     else if (lost.length) about.textContent = this.#editor.say("lost", { what: lost.join(", ") });
     else about.textContent = text.length > CHAT && this.#version !== "bedrock" ? this.#editor.say("long", { count: text.length }) : "";
-  }
-
-  // The materials and the steps at the loom.
-  #showLoom(/** @type {Shown} */ design) {
-    const { say } = this.#editor;
-    const items = materials(design).map(({ item, count, dye, pattern }) => {
-      const notes = pattern ? [say("kept"), ...(FOUND[pattern] ? [say(FOUND[pattern])] : [])] : [];
-      const name = say(item, { pattern: pattern && this.#editor.caption(pattern) }) + (dye ? ` (${this.#editor.dyeTitle(dye)})` : "");
-      return make("li", {}, `${count} × ${name}`, make("span", { class: "hint" }, notes.join(", ")));
-    });
-    const steps = design.layers.map(({ pattern, dye }) => make("li", {}, `${this.#editor.dyeTitle(dye)}: ${this.#editor.caption(pattern)}`));
-    this.#ui.loom.replaceChildren(make("summary", {}, say("loom")), make("ul", { class: "loom" }, ...items), make("ol", { class: "loom" }, ...steps));
   }
 
   // Taking in and out

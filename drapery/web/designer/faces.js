@@ -150,6 +150,19 @@ export class Faces {
     const without = this.texels({ base, layers: layers.toSpliced(number, 1) });
     return difference(without, this.texels({ base, layers })) > 0.02;
   }
+
+  /** The layers that change no texel, as `drapery.banner.simplify` leaves them out: of two alike the lower one.
+   * A pattern that is not here may be seen.
+   * @param {{ base: string, layers: Layer[] }} design */
+  unseen({ base, layers }) {
+    const whole = this.texels({ base, layers });
+    let left = layers;
+    for (const layer of layers.filter(({ pattern }) => this.patterns.includes(pattern))) {
+      const without = left.filter((each) => each !== layer);
+      if (!difference(whole, this.texels({ base, layers: without }))) left = without;
+    }
+    return layers.filter((each) => !left.includes(each));
+  }
 }
 
 /** Black or white, whichever is less like a dye.
