@@ -6,10 +6,8 @@ from urllib.parse import urlencode
 from weakref import WeakKeyDictionary
 from zlib import crc32
 
-import numpy as np
-
-from drapery import Banner, Layer, OptionError, Settings
-from drapery.banner import FLAG_REGIONS, composite, flag_layers, write_banner
+from drapery import Banner, OptionError, Settings
+from drapery.banner import write_banner
 from drapery.packs import Packs
 from drapery.pictures import face_pixels
 from drapery.render import draw_scene, png_bytes
@@ -20,11 +18,6 @@ from drapery.styles import find_style
 FACE_SCALE = 8
 THUMBNAIL_SCALE = 2
 """Pixels of a texel in the library."""
-COLUMNS = 9
-"""The number of patterns in one row of the comparison."""
-CELL = (20, 40)
-"""Width and height of one pattern in a pattern sheet [pixels]."""
-GAP = 2
 STYLE_SIZE = (72, 128)
 """Width and height of the picture of a style [pixels]."""
 STYLE_GRID = (7, 13)
@@ -48,9 +41,12 @@ def face_address(
     return f"design/{document.token}.png?{urlencode(words | _packs(document, pack))}"
 
 
-def face_files(document: Document) -> dict[str, str]:
-    """The addresses of what the page's editor draws faces of, by the kind of design."""
-    words = urlencode(_packs(document, "now"))
+def face_files(document: Document, pack: str = "now") -> dict[str, str]:
+    """The addresses of what the page's editor draws faces of, by the kind of design.
+
+    pack: as in `face_address`.
+    """
+    words = urlencode(_packs(document, pack))
     return {kind: f"faces/{document.token}/{kind}.bin?{words}" for kind in ("banner", "shield")}
 
 
@@ -63,22 +59,6 @@ def pattern_names(packs: Packs) -> tuple[str, ...]:
 
 
 _names: WeakKeyDictionary[Packs, tuple[str, ...]] = WeakKeyDictionary()
-
-
-def pattern_sheet(packs: Packs, base: str, dye: str) -> bytes:
-    """All patterns of the packs in rows, in one dye on a field of another, as a PNG file.
-
-    Cells of 20 x 40 pixels in the order of `pattern_names`. Raises PackError, DesignError.
-    """
-    names, (width, height) = pattern_names(packs), CELL
-    rows = -(-len(names) // COLUMNS)
-    page = np.zeros((rows * (height + GAP), COLUMNS * (width + GAP), 4), np.uint8)
-    for number, name in enumerate(names):
-        # A small sheet is enough here; high-resolution packs have 256 times as many texels.
-        texels = composite(flag_layers(Banner(base, (Layer(name, dye),)), packs), side=64)
-        top, left = number // COLUMNS * (height + GAP), number % COLUMNS * (width + GAP)
-        page[top : top + height, left : left + width] = FLAG_REGIONS["front"].sample(texels, 1)
-    return png_bytes(page)
 
 
 _styled: WeakKeyDictionary[Packs, dict[tuple[Banner, str], bytes]] = WeakKeyDictionary()
@@ -111,13 +91,6 @@ def style_address(document: Document, style: str) -> str:
     settings = document.settings
     shown = document.sketch, settings.packs, settings.format
     return f"styles/{document.token}/{style}.png?v={crc32(repr(shown).encode()):x}"
-
-
-def sheet_address(document: Document, dye: str, base: str, pack: str) -> str:
-    """The address from the page of `pattern_sheet` for a dye on a field. pack: as in
-    `face_address`."""
-    words = {"base": base, "dye": dye}
-    return f"patterns/{document.token}.png?{urlencode(words | _packs(document, pack))}"
 
 
 def _packs(document: Document, pack: str) -> dict[str, str]:

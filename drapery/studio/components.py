@@ -24,6 +24,7 @@ from drapery.web.tables import languages
 
 VIEWER = Path(__file__).with_name("live_viewer.js")
 DESIGNER = VIEWER.with_name("studio_designer.js")
+OWN_ART = "Drapery's own art"
 LABEL = (
     "Live banner. Drag the cloth to pull it and the background to turn the view; the wheel or plus"
     " and minus zoom, Shift with arrows turns, Home resets the view. W, A, S, D or arrows turn the"
@@ -49,13 +50,16 @@ class DesignerElement(Element, component="designer.js"):
             "words": search_words(),
             "token": session.token,
         }
-        session.follow(lambda: set_props(self, {"faces": face_files(session)}), "packs")
         self._session, self._due, self._answers = session, set[str](), False
+        session.follow(self._show_packs, "packs", "scene")
         self._shown = session.motion.get("shown")
         events: tuple[Event, ...] = "laid", "settings", "scene"
         for event in events:
             session.listen(partial(self._tell_soon, event), event)
         on(self, "design", self._take)
+
+    def _show_packs(self) -> None:
+        set_props(self, {"faces": face_files(self._session), "beside": _beside(self._session)})
 
     def _take(self, tree: Any) -> None:
         """Take an edit. What else it changes belongs to its own step of the history."""
@@ -91,6 +95,15 @@ EDITOR_TEXTS = {
     "titleOf": "Title of the design",
     "history": "History",
     "step": "Step {number}: {design}",
+    "compare": "Compare designs",
+    "compareHint": "Keep the design as it is now, or choose an earlier one. Then edit, or open"
+    " another design: the slider shows both.",
+    "keep": "Keep this design",
+    "compareWith": "Compare with",
+    "nothing": "nothing",
+    "versus": "Left: your design now. Right: {title}",
+    "yourPacks": "Your packs in their order",
+    "design": "Design",
 }
 """The texts that the editor has in the studio alone."""
 
@@ -104,6 +117,17 @@ def _editor_language(code: str) -> dict[str, Any]:
     dyes, patterns = game_titles(language["game"])
     named = {"code": code, "dyes": dyes, "patterns": patterns}
     return {**named, "texts": texts | language["texts"]}
+
+
+def _beside(session: Session) -> dict[str, Any] | None:
+    """The packs that are compared with the page's: their name, and what faces are drawn of."""
+    paths = session.viewport.request.beside
+    if paths is None:
+        return None
+    entries = session.pack_store.entries
+    entry = next((each for each in entries if (str(each.path),) == paths), None)
+    title = entry.title if entry else translated(OWN_ART, session.language)
+    return {"title": title, "faces": face_files(session, str(entry.number) if entry else "own")}
 
 
 class ViewerElement(Element, component="viewer.js"):

@@ -1,11 +1,14 @@
 // The designer of the page, which lives in the page's places and not in this element.
 export default {
   template: "<span hidden></span>",
-  props: { module: String, given: Object, faces: Object },
+  props: { module: String, given: Object, faces: Object, beside: Object },
   emits: ["design"],
   watch: {
     async faces(addresses) {
       (await this.designer).redraw(addresses);
+    },
+    async beside(packs) {
+      (await this.designer).packComparison.open(packs);
     },
   },
   mounted() {

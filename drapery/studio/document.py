@@ -24,9 +24,6 @@ Event = (
 """`laid`: a design for the page's editor. `read`: a text or a file, of which designs come. `files`:
 the garments and skins that another tab was sent."""
 
-MAX_STATES = 24
-"""The most designs that a tab remembers to compare with."""
-
 
 class Document:
     """What one tab works on. A change calls the event's listeners in the order they were added.
@@ -34,13 +31,12 @@ class Document:
     The page's editor has the design and all that can be undone, and tells of each edit.
 
     token: identifies the tab to the server; it cannot be guessed.
-    sketch: the design. states: those that the tab has shown, in their order.
+    sketch: the design.
     """
 
     def __init__(self, settings: Settings | None = None, sketch: Sketch | None = None) -> None:
         self.token = secrets.token_urlsafe(24)
         self.sketch = sketch or Sketch()
-        self.states: tuple[Sketch, ...] = (self.sketch,)
         self.settings = settings or Settings()
         self.closed = False
         self._folder: Path | None = None
@@ -95,8 +91,6 @@ class Document:
         if sketch == self.sketch:
             return
         self.sketch = sketch
-        if sketch not in self.states:
-            self.states = (*self.states, sketch)[-MAX_STATES:]
         self.notify("sketch")
 
     def adjust(self, **options: Any) -> None:

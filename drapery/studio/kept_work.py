@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from drapery.studio.pack_store import PackEntry
-from drapery.studio.sketch import Sketch
 
 KEEP = 600.0
 """How long the work of a closed tab is kept [s]."""
@@ -23,10 +22,9 @@ class Work:
     """What a tab can go on from.
 
     packs: lowest first. garments: the names of garments and skins that were sent, by their paths.
-    states, entries, tags: as in `Session`. The page keeps what can be undone.
+    entries, tags: as in `Session`. The page keeps what can be undone.
     """
 
-    states: tuple[Sketch, ...]
     packs: tuple[PackEntry, ...]
     garments: dict[str, str]
     entries: dict[int, int]

@@ -29,7 +29,6 @@ LINES = {
     "patterns": "M4 4h6v6H4zM14 4h6v6h-6zM4 14h6v6H4zM14 14h6v6h-6z",
     "pause": "M8 5v14M16 5v14",
     "picture": "M3 5h18v14H3zM3 16l5-5 5 5 3-3 5 5M16 9h.01",
-    "pin": "M8 4h8M10 4v6l-3 4h10l-3-4V4M12 14v7",
     "rest": "M4 12a8 8 0 1 0 2.5-5.8M4 3v4.5h4.5",
     "save": "M4 4h13l3 3v13H4zM8 4v5h7V4M8 20v-7h8v7",
     "start": "M12 3l2 7 7 2-7 2-2 7-2-7-7-2 7-2z",

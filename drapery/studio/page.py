@@ -68,7 +68,7 @@ PANELS = (
     PagePanel("loom", "Loom", "side", "Get out", "loom"),
     PagePanel("library", "Library", "side", "Library"),
     PagePanel("start", "Start", "side", "Library"),
-    PagePanel("compare", "Compare", "side", "Library"),
+    PagePanel("compare", "Compare", "side", "Library", "compare"),
 )
 
 FIRST_TAB = "patterns"

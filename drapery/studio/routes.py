@@ -20,7 +20,7 @@ from drapery import DesignError, DraperyError, OptionError
 from drapery.banner import parse_banner
 from drapery.file_formats import KIND_NAMES, format_of
 from drapery.packs import Packs, open_packs
-from drapery.studio.art import face_png, pattern_names, pattern_sheet, style_png
+from drapery.studio.art import face_png, pattern_names, style_png
 from drapery.studio.components import viewer_module
 from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.played import SceneFile, kernel_file, scene_file
@@ -78,19 +78,14 @@ def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
         return _picture(session, draw)
 
     @app.get("/faces/{token}/{kind}.bin")
-    def faces(token: str, kind: Literal["banner", "shield"]) -> Response:
+    def faces(token: str, kind: Literal["banner", "shield"], pack: str = "now") -> Response:
         session = session_of(token)
         try:
-            packs = session.packs()
+            packs = _packs(session, pack)
             data = face_bytes(kind, packs, pattern_names(packs))
         except DraperyError as error:
             return _not_shown(session, error)
         return _compressed(data, "application/octet-stream")
-
-    @app.get("/patterns/{token}.png")
-    def patterns(token: str, base: str, dye: str, pack: str = "now") -> Response:
-        session = session_of(token)
-        return _picture(session, lambda: pattern_sheet(_packs(session, pack), base, dye))
 
     @app.get("/styles/{token}/{name}.png")
     def style(token: str, name: str) -> Response:

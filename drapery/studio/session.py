@@ -97,7 +97,7 @@ class Session(Document):
         """What another page needs to go on from here."""
         packs = self.pack_store.entries
         own = {**self.garment_store.names}, {**self.entries}, {**self.tags}
-        return Work(self.states, packs, *own)
+        return Work(packs, *own)
 
     def set_recent(self, links: object) -> None:
         """Take the links of the latest designs from the browser; notifies "recent"."""
@@ -162,7 +162,6 @@ class Session(Document):
         """Go on from a tab's work. Raises DraperyError for packs that cannot be opened any more."""
         self.entries |= work.entries
         self.tags |= work.tags
-        self.states = (*work.states, *(each for each in self.states if each not in work.states))
         if work.garments:
             self.garment_store.restore(work.garments)
             self.notify("files")
@@ -222,8 +221,8 @@ class Sessions:
     def keep(self, session: Session) -> None:
         """End the session of a page that is gone; keep its work if it has any."""
         has_packs = any(entry.upload for entry in session.pack_store.entries)
-        has_files = has_packs or session.garment_store.names
-        keeps = not session.closed and (has_files or len(session.states) > 1)
+        has_work = has_packs or session.garment_store.names or session.entries or session.tags
+        keeps = not session.closed and has_work
         work, folder = session.work, session.take_folder() if keeps else None
         session.close()  # first, since it removes what exports have written
         if keeps:

@@ -235,12 +235,6 @@ new MutationObserver((_, observer) => {
   resume();
 }).observe(document.documentElement, { childList: true, subtree: true });
 
-// Two pictures, one over the other: a slider says where one ends and the other begins.
-document.addEventListener("input", (event) => {
-  const box = event.target.closest?.(".versus-slider");
-  box?.style.setProperty("--cut", `${event.target.value}%`);
-});
-
 // A page that is loaded again goes on from its earlier session, which the browser's history names.
 function resume() {
   history.replaceState({ session: root().dataset.token }, "");

@@ -3,9 +3,9 @@
 
 import { HIDDEN, drawPixels, iconButton, kept, make } from "../web/designer/dom.js";
 import { Editor } from "../web/designer/editor.js";
-import { Faces } from "../web/designer/faces.js";
 import { History, shownOf, workOf, writeShorthand } from "../web/designer/model.js";
 import { STYLES } from "../web/designer/tables.js";
+import { Comparison, KINDS, PackComparison, readFaces } from "./comparisons.js";
 
 const KEPT = "drapery-history"; // the key of the history in the browser's storage
 const SHOWN_STEPS = 12; // the most on the strip: those around the present one
@@ -26,12 +26,13 @@ export class StudioDesigner {
     sheet.replaceSync(`.editor { ${STYLES.editor} }`);
     document.adoptedStyleSheets.push(sheet);
     this.editor = new Editor(this.opened(workOf(design, {}, motion)), {
-      openFaces: async (kind) => Faces.read(await (await fetch(this.faces[kind])).arrayBuffer()),
+      openFaces: (kind) => readFaces(this.faces[kind]),
       begin: (work) => ({ title: "", origin: Math.floor(Math.random() * MAX_ORIGIN), ...work }),
       show: () => this.show(),
       announce: () => this.announce(),
     });
     Object.assign(this.editor, { language, words, chosen: design.layers.length ? null : "field" });
+    Object.assign(this, { comparison: new Comparison(this), packComparison: new PackComparison(this) });
     document.querySelector(".studio").addEventListener("act", (event) => this.act(event.detail));
     // A file that was sent is known to the server again once it has heard of the earlier session.
     const isSent = Object.values(this.editor.work.motion.shown ?? {}).some((each) => /[\\/]/.test(each));
@@ -54,7 +55,7 @@ export class StudioDesigner {
   async redraw(faces) {
     const { editor } = this;
     this.faces = faces;
-    await Promise.all(Object.keys(OTHER_KIND).map((kind) => editor.open(kind)));
+    await Promise.all(KINDS.map((kind) => editor.open(kind)));
     this.buttons.clear();
     const names = String(editor.faces?.patterns);
     if (names !== this.names || !editor.controls) this.build();
@@ -78,6 +79,7 @@ export class StudioDesigner {
       tools: [parts.undo, parts.redo, fresh, parts.random, parts.clear, parts.kind],
       dyes: parts.dyes, layers: [this.title, ...parts.layers, parts.status], patterns: parts.patterns ?? [],
       loom: [make("h2", {}, say("loom")), parts.loom], face: [parts.flat], other: [this.other], steps: [this.strip],
+      compare: this.comparison.nodes,
     };
     for (const [name, nodes] of Object.entries(placed)) document.querySelector(`[data-part="${name}"]`)?.replaceChildren(...nodes);
   }
@@ -132,16 +134,24 @@ export class StudioDesigner {
     const other = every[OTHER_KIND[work.kind]];
     if (other) drawPixels(this.other, other.face(shownOf(work)));
     this.showSteps();
+    this.comparison.show();
+    this.packComparison.show();
+  }
+
+  // All designs of the history, each once.
+  get states() {
+    const { past, work, future } = this.editor.history;
+    const all = [...past, work, ...future.toReversed()];
+    const texts = all.map((each) => JSON.stringify(designOf(each)));
+    return all.filter((_, at) => texts[at] !== texts[at - 1]); // another wind is no other picture
   }
 
   // The states around the present one; a button that is still shown stays, because a click on one that is
   // replaced is lost.
   showSteps() {
-    const { past, work, future } = this.editor.history;
-    const all = [...past, work, ...future.toReversed()];
-    const texts = all.map((each) => JSON.stringify(designOf(each)));
-    const states = all.filter((_, at) => texts[at] !== texts[at - 1]); // another wind is no other picture
-    const present = states.findLastIndex((each) => all.indexOf(each) <= past.length);
+    const { states, editor: { history: { past, work } } } = this;
+    const before = [...past, work];
+    const present = states.findLastIndex((each) => before.includes(each));
     const first = Math.max(0, Math.min(present - SHOWN_STEPS / 2, states.length - SHOWN_STEPS));
     const shown = states.length > 1 ? states.slice(first, first + SHOWN_STEPS) : [];
     this.buttons = new Map(shown.map((state) => [state, this.buttons.get(state) ?? this.step(state)]));
@@ -167,6 +177,8 @@ export class StudioDesigner {
     const layers = shownOf(work).layers.map(({ pattern, dye }) => say("layerIn", { pattern: caption(pattern), dye: dyeTitle(dye) }));
     return [dyeTitle(work.base), ...layers].join("; ");
   }
+
+  titleOf = (work) => work.title || this.described(work);
 
   goTo(state) {
     const { editor } = this;

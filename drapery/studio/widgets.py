@@ -68,26 +68,6 @@ def translated_text(text: str, tag: str = "span") -> ui.label:
     return text_element(translated(text), tag)
 
 
-class VersusSlider(Element):
-    """Two pictures, one over the other, with a slider between them."""
-
-    def __init__(self, title: str) -> None:
-        """title: names the right one; the left one is the current design."""
-        super().__init__("div")
-        with self.classes("versus-slider"):
-            with ui.element("div").classes("versus-faces"):
-                self._faces = [ui.element("img").props('alt=""') for _ in range(2)]
-            # It begins in the middle; a value here would be set again at each change of the page.
-            slider = ui.element("input").props("type=range min=0 max=100")
-            label = translated("Left: your design now. Right: {title}").format(title=title)
-            slider.classes("slider").props["aria-label"] = label
-
-    def show(self, left: str, right: str) -> None:
-        """Show the pictures at these addresses."""
-        for face, address in zip(self._faces, (left, right), strict=True):
-            set_props(face, {"src": address})
-
-
 class KeptElements(Generic[ElementT]):
     """The children of an element, by keys that say all that each of them is made for.
 

@@ -30,7 +30,7 @@ from drapery.banner.patterns import PATTERN_NAMES
 from drapery.banner.sprites import composite, shield_layers
 from drapery.packs import PACK_FORMATS
 from drapery.pictures import draw
-from drapery.studio.art import pattern_names, pattern_sheet
+from drapery.studio.art import pattern_names
 
 ENTITY = "assets/minecraft/textures/entity/"
 
@@ -72,7 +72,6 @@ def test_a_sprite_that_no_design_can_name_is_listed_as_extra(extra_pack: Path) -
     assert packs.extra_sprites() == ("minecraft:half_vertical_left",)
     assert red(packs, "minecraft:half_vertical_left") == 2
     assert pattern_names(packs) == PATTERN_NAMES
-    assert pattern_sheet(packs, "white", "red")
 
 
 def test_the_commands_draw_extra_sprites_too(

@@ -43,7 +43,6 @@ def test_designs_packs_and_the_librarys_entry_are_there_again(pack: Path, is_gon
         sessions.keep(first)
     second = sessions.open(sketch=first.sketch)
     second.resume(sessions.work(first.token))
-    assert second.states == first.states
     assert [entry.title for entry in second.pack_store.entries] == ["blue.zip"]
     assert second.packs().level("creeper") == 1
     assert second.entries[second.sketch.origin] == 7
@@ -93,18 +92,6 @@ def test_a_closed_tab_makes_no_new_folder() -> None:
     sessions.keep(session)
     with pytest.raises(DesignError, match="the page is gone"):
         print(session.folder)
-
-
-def test_a_design_of_the_address_is_beside_those_of_the_page_before() -> None:
-    sessions = Sessions()
-    first = sessions.open()
-    first.edit(sketch_of(Banner.parse("red")))
-    other = sketch_of(Banner.parse("blue"))
-    second = sessions.open(sketch=other)
-    second.resume(sessions.work(first.token))
-    assert second.sketch == other
-    assert second.states == (*first.states, other)
-    sessions.close_all()
 
 
 def test_nothing_is_kept_of_a_page_without_work() -> None:

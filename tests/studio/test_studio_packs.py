@@ -9,16 +9,11 @@ from pack_maker import BANNER, META, NEW_BASE, mcmeta, noise, png, zip_pack
 from drapery.banner.design import Banner, Layer
 from drapery.banner.packs import Packs, open_packs
 from drapery.banner.packs.png import read_png
-from drapery.banner.sprites import FLAG_REGIONS, composite, flag_layers
 from drapery.errors import OptionError, PackError
 from drapery.settings import Settings
 from drapery.studio.art import (
-    CELL,
-    COLUMNS,
-    GAP,
     THUMBNAIL_SCALE,
     face_png,
-    pattern_sheet,
     style_png,
 )
 from drapery.studio.pack_store import PackContents
@@ -35,24 +30,6 @@ def packs(request: pytest.FixtureRequest, tmp_path: Path) -> Packs:
     sheets = {f"{BANNER}{name}.png": png(noise(n, side)) for n, name in enumerate(NAMES)}
     files = {META: mcmeta(), NEW_BASE: png(noise(9, base)), **sheets}
     return open_packs([zip_pack(tmp_path / "pack.zip", files)])
-
-
-def middle_texels(banner: Banner, packs: Packs) -> np.ndarray:
-    """The front at one pixel a unit, by way of the whole composite [40, 20, 4]."""
-    texels = FLAG_REGIONS["front"].crop(composite(flag_layers(banner, packs)))
-    down = (np.arange(40) * 2 + 1) * texels.shape[0] // 80
-    across = (np.arange(20) * 2 + 1) * texels.shape[1] // 40
-    return texels[down][:, across]
-
-
-def test_cells_are_the_middles_of_the_whole_picture(packs: Packs) -> None:
-    sheet, (width, height) = read_png(pattern_sheet(packs, "red", "lime"), "sheet"), CELL
-    for place, name in enumerate(packs.patterns()):
-        if name in NAMES:
-            top, left = place // COLUMNS * (height + GAP), place % COLUMNS * (width + GAP)
-            cell = sheet[top : top + height, left : left + width]
-            wanted = middle_texels(Banner("red", (Layer(name, "lime"),)), packs)
-            np.testing.assert_array_equal(cell, wanted)
 
 
 @pytest.mark.parametrize("kind", ["banner", "shield"])

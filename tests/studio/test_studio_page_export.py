@@ -238,8 +238,8 @@ def test_packs_change_the_patterns(page: Page, tmp_path: Path) -> None:
     wait_until(lambda: '--pack "blue <b>&.zip"' in page.text("#as-command"))
     assert str(page.studio.folder) not in page.text("#as-command")
     page.fill("packs", "Compare with", "own")
-    loaded = "return [...document.querySelectorAll('.versus img')].map((i) => i.naturalWidth)"
-    assert wait_until(lambda: len(page.run(loaded)) == 4 and all(page.run(loaded)))
+    drawn = "return [...document.querySelectorAll('.versus canvas')].map((e) => e.toDataURL())"
+    assert wait_until(lambda: len(set(page.run(drawn))) == 4)
     page.click("packs", "Remove: blue <b>&.zip")
     assert wait_until(lambda: sheet(page) == before)
     assert wait_until(lambda: sent(page) <= lay)
@@ -391,7 +391,7 @@ def test_no_text_becomes_code(page: Page, tmp_path: Path) -> None:
     drop(other, "packs", pack)
     other.notice("{{7 * 191}}<img src=x onerror=hit()>.zip")
     other.fill("packs", "Compare with", "1")
-    wait_until(lambda: other.run("return document.querySelectorAll('.versus img').length"))
+    wait_until(lambda: other.run("return document.querySelectorAll('.versus canvas').length"))
     assert "1337" not in other.run("return document.body.innerText")
     assert other.run("return window.hit ?? null") is None
 
@@ -439,7 +439,7 @@ def test_an_address_reads_only_its_own_files(page: Page) -> None:
             f"/library/{token}/{step}/secret.txt",
             f"/library/{step}",
             f"/design/{token}.png?{FACE}&pack={step}",
-            f"/patterns/{token}.png?base=red&dye=lime&pack={step}",
+            f"/faces/{token}/banner.bin?pack={step}",
             f"/design/{step}.png?{FACE}&pack=own",
             f"/{step}/secret.txt",
         ):

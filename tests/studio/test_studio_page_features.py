@@ -69,14 +69,20 @@ def test_the_browser_remembers_the_designs_of_closed_tabs(page: Any, studio: Stu
 
 
 def test_two_designs_are_compared_by_a_slider(page: Any) -> None:
-    click(page, "#panel-compare .line button")
+    box = "document.querySelector('#panel-compare .versus-slider')"
+    assert page.execute_script(f"return {box}.hidden")
+    click(page, "#panel-compare button")
     click(page, "[data-pattern=creeper]")
     wait_until(lambda: "creeper" in value(page, "written"))
-    loaded = "return [...document.querySelectorAll('#panel-compare img')].map((e) => e.src)"
-    wait_until(lambda: len(set(page.execute_script(loaded))) == 2)
-    slider = "#panel-compare input[type=range]"
-    label = f"return document.querySelector('{slider}')?.ariaLabel ?? ''"
-    wait_until(lambda: page.execute_script(label).endswith("Right: White banner"))
+    drawn = f"return [...{box}.querySelectorAll('canvas')].map((each) => each.toDataURL())"
+    wait_until(lambda: len(set(page.execute_script(drawn))) == 2)
+    label = f"return {box}.querySelector('input').ariaLabel"
+    assert page.execute_script(label) == "Left: your design now. Right: White"
+    choices = "return [...document.querySelectorAll('#panel-compare option')].map((e) => e.text)"
+    assert page.execute_script(choices) == ["nothing", "1: White", "2: White; Creeper, Black"]
+    click(page, "[data-act=kind]")
+    wait_until(lambda: "shield" in value(page, "written"))
+    assert len(set(page.execute_script(drawn))) == 2
 
 
 def test_what_other_pages_need_follows_the_design(page: Any) -> None:
@@ -123,7 +129,7 @@ def test_lists_keep_their_elements_in_place(page: Any) -> None:
     wait_until(lambda: count(found) == 4)
     assert page.execute_script(KEPT, found) == [True, True, False, False]
     slider = "#panel-compare .versus-slider input"
-    click(page, "#panel-compare .line button")
+    click(page, "#panel-compare button")
     wait_until(lambda: count(slider))
     page.execute_script(MOVE, slider)
     for pattern, steps in (("creeper", 2), ("skull", 3)):

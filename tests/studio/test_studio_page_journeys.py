@@ -237,10 +237,11 @@ def test_packs_are_compared(page: Any, tmp_path: Path) -> None:
         drop(page, name, zip_pack(tmp_path / name, files).read_bytes())
         wait_until(lambda name=name: text(page, ".pack-name").startswith(name))
     fill(page, "Compare with", "1")
-    wait_until(lambda: loaded(page, ".versus-slider img") and loaded(page, ".versus img"))
-    find(page, ".versus-slider input").send_keys(*[Keys.ARROW_LEFT] * 10)
-    cut = "return document.querySelector('.versus-slider').style.getPropertyValue('--cut')"
-    assert page.execute_script(cut) == "40%"
+    drawn = "return [...document.querySelectorAll('.versus canvas')].map((e) => e.toDataURL())"
+    wait_until(lambda: len(set(page.execute_script(drawn))) == 4)
+    slider = find(page, "#panel-packs .versus-slider")
+    slider.find_element("css selector", "input").send_keys(*[Keys.ARROW_LEFT] * 10)
+    assert "--cut: 40%" in slider.get_attribute("style")
     wait_until(lambda: "soft.zip" in text(page, ".viewer-host"))
 
 

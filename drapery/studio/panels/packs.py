@@ -8,26 +8,22 @@ from nicegui.element import Element
 
 from drapery import DraperyError
 from drapery.packs import LAST_MASK_FORMAT, PACK_FORMATS
-from drapery.studio.art import face_address, sheet_address
+from drapery.studio.components import OWN_ART, editor_part
 from drapery.studio.file_field import FileField
 from drapery.studio.notices import errors_shown, show_notice
 from drapery.studio.pack_store import PackContents, PackEntry, PackStore
 from drapery.studio.panels.fields import Fields
 from drapery.studio.session import Session
-from drapery.studio.sketch import banner_of
 from drapery.studio.translation import translated
 from drapery.studio.widgets import (
     KeptElements,
-    VersusSlider,
     button,
     on,
-    set_props,
     text_element,
     translated_text,
 )
 
 NO_PACK = "none"
-OWN_ART = "Drapery's own art"
 READING = "Reading all its patterns …"
 LATER = 1.5
 """The delay between building the page and reading what its packs have [s]."""
@@ -197,12 +193,6 @@ def _comparison(session: Session) -> None:
         other = name if name in choices() else NO_PACK
         with errors_shown():
             session.viewport.update(beside=_paths(pack_store, other))
-        show()
-
-    def show() -> None:
-        chosen = [] if other == NO_PACK else [(other, choices()[other])]
-        for pair in pairs.show({each: partial(_Comparison, session, *each) for each in chosen}):
-            pair.show()
 
     def follow() -> None:
         chooser.set_choices(choices())
@@ -211,9 +201,8 @@ def _comparison(session: Session) -> None:
             choose(other)
 
     chooser = Fields(session).choice("Compare with", choices(), lambda: other, choose)
-    pairs: KeptElements[_Comparison] = KeptElements(ui.element("div"))
+    editor_part("beside")
     session.listen(follow, "packs")
-    session.listen(show, "sketch")
 
 
 def _paths(pack_store: PackStore, other: str) -> tuple[str, ...] | None:
@@ -221,39 +210,3 @@ def _paths(pack_store: PackStore, other: str) -> tuple[str, ...] | None:
     if other == "own":
         return ()
     return (str(pack_store.path_of(int(other))),) if other.isdigit() else None
-
-
-class _Comparison(Element):
-    """The design and all patterns, drawn from the tab's packs and from another stack of them."""
-
-    def __init__(self, session: Session, pack: str, title: str) -> None:
-        """pack: of the other side, as in `face_address`. title: its name."""
-        super().__init__("div")
-        self._session = session
-        with self:
-            self._slider = VersusSlider(title)
-            with ui.element("div").classes("versus"):
-                captions = {"now": "Your packs in their order", pack: title}
-                self._sides = {name: self._side(text) for name, text in captions.items()}
-
-    def _side(self, caption: str) -> list[Element]:
-        """The two pictures of a side."""
-        pictures = []
-        with ui.element("figure").classes("versus-side"):
-            translated_text(caption, "figcaption")
-            for title in ("Design", "Patterns"):
-                picture = ui.element("img").classes(f"versus-{title.lower()}")
-                picture.props["alt"] = f"{translated(title)}: {caption}"
-                pictures.append(picture)
-        return pictures
-
-    def show(self) -> None:
-        """Show the design as it is now."""
-        session, sketch = self._session, self._session.sketch
-        dye = sketch.strokes[-1].dye if sketch.strokes else "black"
-        field = next(each for each in (sketch.base, "white", "black") if each != dye)
-        faces = [face_address(session, banner_of(sketch), pack=each) for each in self._sides]
-        self._slider.show(*faces)
-        for face, (pack, (design, patterns)) in zip(faces, self._sides.items(), strict=True):
-            set_props(design, {"src": face})
-            set_props(patterns, {"src": sheet_address(session, dye, field, pack)})

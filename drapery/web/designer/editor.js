@@ -201,7 +201,7 @@ export class Editor {
     const [heading, hint, count] = [make("h2", { class: "mode" }), make("span", { class: "hint" }), make("span", { class: "hint" })];
     const done = make("button", { type: "button", class: "quiet", onclick: () => acts.select(null) }, say("add"));
     const empty = make("p", { class: "hint" }, say("noLayers"));
-    const [over, idle, steps] = [make("p", { class: "warning" }, say("loomNot", { most: LIMITS.loomLayers })), make("button", { type: "button", hidden: true, onclick: () => this.leaveOut() }), make("div", { class: "recipe" })];
+    const [over, idle, steps] = [make("p", { class: "warning" }, say("loomNot", { most: LIMITS.loomLayers })), make("button", { type: "button", hidden: true, onclick: () => this.leaveOut() }), make("div", { class: "stack" })];
     this.controls = { dyes, grid, list, undo, redo, kind, heading, hint, count, done, empty, over, idle, steps };
     this.parts = {
       status: make("p", { class: "status", role: "status" }),
@@ -212,7 +212,7 @@ export class Editor {
       dyes: [make("div", { class: "mode-line" }, heading, hint, done), dyes.group],
       patterns: grid && [make("div", { class: "search" }, make("h2", {}, say("patterns")), grid.field, grid.count), grid.nothing, grid.grid],
       layers: [make("div", { class: "head" }, make("h2", {}, say("layers")), count), empty, list.list],
-      loom: make("div", { class: "recipe" }, over, idle, steps),
+      loom: make("div", { class: "stack" }, over, idle, steps),
       flat: make("canvas", { class: "flat", ...HIDDEN }),
       find: grid?.field,
     };
