@@ -4,7 +4,7 @@ export default {
     <div :class="['file-field', { 'file-field-over': over }]"
          @dragover.prevent="over = true" @dragleave="over = false" @drop.prevent="drop">
       <label class="file-field-label">
-        <input type="file" class="file-field-input" :accept="accept" :multiple="multiple"
+        <input type="file" class="file-field-input unseen" :accept="accept" :multiple="multiple"
                :disabled="busy" @change="choose" />
         <span>{{ busy ? sending : label }}</span>
       </label>

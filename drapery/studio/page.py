@@ -27,6 +27,7 @@ from drapery.studio.sketch import Sketch, sketch_of
 from drapery.studio.translation import language, translated
 from drapery.studio.warning_log import collected_warnings
 from drapery.studio.widgets import on, set_props, translated_text
+from drapery.web.bundle import WEB
 
 Place = Literal["left", "viewport", "under", "side"]
 Group = Literal["Design", "Bring in", "Get out", "Library"]
@@ -74,6 +75,8 @@ PANELS = (
 FIRST_TAB = "patterns"
 
 _DETAIL = "(event) => emit(event.detail)"
+_PARTS = ":is(.studio, .studio-dialog)"
+"""What has the fields and buttons of the editor."""
 _FOLDER = Path(__file__).parent
 
 
@@ -199,6 +202,8 @@ def _write_into_address(session: Session) -> None:
 
 def _head(session: Session) -> None:
     # Inline: each is small, and a page that arrives complete does not shift while it loads.
+    editor = (WEB / "designer" / "editor.css").read_text()
+    ui.add_head_html(f"<style>@layer components {{ {_PARTS} {{ {editor} }} }}</style>")
     for sheet in sorted(_FOLDER.glob("*.css")):
         ui.add_head_html(f"<style>{sheet.read_text()}</style>")
     ui.add_head_html(f'<script type="module">{(_FOLDER / "studio.js").read_text()}</script>')

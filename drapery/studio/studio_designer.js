@@ -4,7 +4,6 @@
 import { HIDDEN, drawPixels, iconButton, kept, make } from "../web/designer/dom.js";
 import { Editor } from "../web/designer/editor.js";
 import { History, shownOf, workOf, writeShorthand } from "../web/designer/model.js";
-import { STYLES } from "../web/designer/tables.js";
 import { Comparison, KINDS, PackComparison, readFaces } from "./comparisons.js";
 
 const KEPT = "drapery-history"; // the key of the history in the browser's storage
@@ -22,9 +21,6 @@ export class StudioDesigner {
   // their kind. tell: takes each design for the server, and the options that an undone step had.
   constructor({ design, motion, language, words, token }, faces, tell) {
     Object.assign(this, { token, tell, buttons: new Map(), heard: JSON.stringify(motion) });
-    const sheet = new CSSStyleSheet();
-    sheet.replaceSync(`.editor { ${STYLES.editor} }`);
-    document.adoptedStyleSheets.push(sheet);
     this.editor = new Editor(this.opened(workOf(design, {}, motion)), {
       openFaces: (kind) => readFaces(this.faces[kind]),
       begin: (work) => ({ title: "", origin: Math.floor(Math.random() * MAX_ORIGIN), ...work }),

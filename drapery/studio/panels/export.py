@@ -50,7 +50,7 @@ class ExportForm:
         self._own = session.exports
         with ui.element("div").classes("line"):
             press = button("Export the file", self._start, icon="download", text="Export")
-            press.classes("primary")
+            press.classes("main")
             self._link = text_element("", "a").classes("export-link").props("download")
         self._link.set_visibility(False)
         self._warnings = ui.element("div").props("role=status")

@@ -14,7 +14,7 @@ def build(session: Session) -> None:
     with switch:
         editor_part("other")
     # The change in words, for screen readers.
-    announced = text_element("").classes("sr").props("role=status")
+    announced = text_element("").classes("unseen").props("role=status")
 
     def show() -> None:
         words = described(session.sketch)

@@ -182,10 +182,10 @@ def copy_field(name: str, label: str, rows: int) -> Callable[[str], None]:
     """
     label = translated(label)
     with ui.element("div").classes("copy"):
-        with ui.element("div").classes("copy-head"):
-            text_element(label, "h3")
+        with ui.element("div").classes("head"):
+            text_element(label, "h3").classes("grow")
             press = button(translated("Copy: {label}").format(label=label), icon="copy")
-            with press:
+            with press.classes("quiet"):
                 translated_text("Copy").classes("copy-label")
             press.props.update({"data-copy": name})
         area = ui.element("textarea").classes("field code").props("readonly")

@@ -70,7 +70,7 @@ class LibraryPanel:
         def tag(tags: str) -> None:
             session.tags[session.sketch.origin] = tags
 
-        translated_text("Save this design", "h2")
+        translated_text("Save this design", "h2").classes("heading")
         with ui.element("div").classes("options"):
             title = "Title", lambda: session.sketch.title, session.name
             self._fields.line(*title, maxlength=MAX_TITLE)
@@ -81,7 +81,7 @@ class LibraryPanel:
             self._over = button("Save changes", self._save_over, icon="save", text="Save changes")
             self._new = button("Save as a new design", self._save_new, text="Save as new")
         for each in (self._save, self._over):
-            each.classes("primary")
+            each.classes("main")
 
     @property
     def _open(self) -> int:
@@ -89,8 +89,8 @@ class LibraryPanel:
         return self._session.entries.get(self._session.sketch.origin, 0)
 
     def _search(self) -> None:
-        translated_text("Find", "h2")
-        with ui.element("div").classes("search"):
+        translated_text("Find", "h2").classes("heading")
+        with ui.element("div").classes("library-search"):
             field = ui.element("input").classes("field").props("type=search maxlength=200")
             label = translated("Title, tag, dye or pattern")
             field.props.update({"placeholder": label, "aria-label": label})
@@ -116,7 +116,7 @@ class LibraryPanel:
         background_tasks.create(self.refresh())
 
     def _whole_library(self) -> None:
-        translated_text("The whole library", "h2")
+        translated_text("The whole library", "h2").classes("heading")
         with ui.element("div").classes("line"):
             export = translated_text("Export it as a file", "a").classes("export-link")
             export.props("download").props["href"] = f"library/{self._session.token}"
@@ -179,8 +179,8 @@ class LibraryPanel:
             text_element(name).classes("design-title").props.update({"title": name})
             text_element(", ".join(design.tags)).classes("hint design-tags")
             with ui.element("div").classes("design-acts"):
-                button(rename, lambda: self._edit(design), icon="edit").classes("small")
-                button(delete, lambda: self._remove(design.number), icon="delete").classes("small")
+                button(rename, lambda: self._edit(design), icon="edit").classes("quiet")
+                button(delete, lambda: self._remove(design.number), icon="delete").classes("quiet")
         return card
 
     async def _save_over(self) -> None:
@@ -252,7 +252,7 @@ class LibraryPanel:
             line("Title", "title", MAX_TITLE)
             line("Tags, with commas between", "tags", 500)
             with ui.element("div").classes("line"):
-                button("Save title and tags", save, text="Save").classes("primary")
+                button("Save title and tags", save, text="Save").classes("main")
                 button("Change nothing", dialog.close, text="Cancel")
         dialog.on("hide", dialog.delete)
         dialog.open()

@@ -173,7 +173,7 @@ def _row(session: Session, entry: PackEntry) -> None:
             _focus(client, f'[data-pack="{entry.number}"] button:nth-of-type({place})')
 
         label = translated(text).format(name=entry.title)
-        button(label, press, icon=icon).classes("small")
+        button(label, press, icon=icon).classes("quiet")
 
 
 def _focus(client: Client, selector: str) -> None:

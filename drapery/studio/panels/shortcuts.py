@@ -45,7 +45,7 @@ def build() -> None:
     )
     dialog = ui.html(
         f'<h2>{_text("Keyboard shortcuts")}</h2><div class="keys">{groups}</div>'
-        f'<button type="button" class="button primary">{_text("Close")}</button>',
+        f'<button type="button" class="button main">{_text("Close")}</button>',
         sanitize=False,
         tag="dialog",
     )

@@ -21,7 +21,7 @@ def build(session: Session) -> None:
     """A new design, and our own designs in their groups; each can be changed."""
     translated_text("Begin with a design", "h2").classes("heading")
     with ui.element("div").classes("line"):
-        new = button("New banner", text="New banner").classes("primary")
+        new = button("New banner", text="New banner").classes("main")
         new.props["data-act"] = "new"
         for name, label in (("library", "Open from the library"), ("text", "Open a text or file")):
             button(label, partial(_show_tab, name), text=label)

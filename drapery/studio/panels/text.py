@@ -49,7 +49,7 @@ def _reader(session: Session) -> None:
     fault = text_element("", "p").classes("fault").props('role="alert"')
     with ui.element("div").classes("line"):
         press = button("Read this text", text="Read", key="Ctrl+Enter")
-        press.classes("primary").props('id="read-text"')
+        press.classes("main").props('id="read-text"')
     FileField(session, "design", "Choose a file", upload_queue.read_file, zone="body")
     hint("Or drop a file anywhere: schematics, structures, regions, saves, functions.")
     choices: KeptElements[Element] = KeptElements(ui.element("div").classes("found-list"))

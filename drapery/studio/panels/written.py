@@ -76,7 +76,7 @@ def build_writer(session: Session) -> None:
                 lambda on: change(json_text=bool(on)),
             )
     with ui.element("div").classes("line"):
-        copy = button("Copy the text", icon="copy").classes("primary")
+        copy = button("Copy the text", icon="copy").classes("main")
         with copy:
             translated_text("Copy").classes("copy-label")
     copy.props('data-copy="written"')
@@ -90,7 +90,7 @@ def build_writer(session: Session) -> None:
             text, fault = chosen.text(banner_of(session.sketch)), False
         except DesignError as error:
             text, fault = str(error), True
-        written.classes(add="is-fault" if fault else "", remove="" if fault else "is-fault")
+        written.classes(add="fault" if fault else "", remove="" if fault else "fault")
         set_props(written, {"value": text})
         set_props(copy, {"disabled": fault})
         note.set_text("" if fault else not_kept(chosen.details, chosen.form))
