@@ -188,7 +188,7 @@ def copy_field(name: str, label: str, rows: int) -> Callable[[str], None]:
             with press.classes("quiet"):
                 translated_text("Copy").classes("copy-label")
             press.props.update({"data-copy": name})
-        area = ui.element("textarea").classes("field code").props("readonly")
+        area = ui.element("textarea").classes("field command").props("readonly")
         area.props.update({"id": name, "rows": rows, "aria-label": label, "spellcheck": "false"})
 
     return lambda text: set_props(area, {"value": text})

@@ -43,7 +43,7 @@ def build(session: Session) -> None:
 def _reader(session: Session) -> None:
     upload_queue = session.upload_queue
     translated_text("Read a design", "h2").classes("heading")
-    text = ui.element("textarea").classes("field code").props('id="design-text" rows=4')
+    text = ui.element("textarea").classes("field command").props('id="design-text" rows=4')
     text.props.update({"placeholder": translated(_PLACEHOLDER)})
     text.props["aria-label"] = translated("A design in any form")
     fault = text_element("", "p").classes("fault").props('role="alert"')

@@ -80,7 +80,7 @@ def build_writer(session: Session) -> None:
         with copy:
             translated_text("Copy").classes("copy-label")
     copy.props('data-copy="written"')
-    written = ui.element("textarea").classes("field code").props('id="written" rows=6 readonly')
+    written = ui.element("textarea").classes("field command").props('id="written" rows=6 readonly')
     written.props.update({"aria-label": translated("The design as text"), "spellcheck": "false"})
 
     note = text_element("", "p").classes("hint")
