@@ -184,13 +184,20 @@ def test_a_design_from_a_command(page: Any) -> None:
 
 def test_a_pattern_of_a_pack(page: Any, tmp_path: Path) -> None:
     anvil = "assets/acme/textures/entity/banner/anvil.png"
-    files = {META: mcmeta(), CREEPER: plain(0, 0, 255, 255), anvil: png(noise(3))}
+    mask = np.zeros((64, 64, 4), np.uint8)
+    mask[..., 3], mask[8:20, 8:20] = 255, 255
+    files = {META: mcmeta(), CREEPER: png(mask), anvil: png(noise(3))}
     drop(page, "acme.zip", zip_pack(tmp_path / "acme.zip", files).read_bytes())
     wait_until(lambda: text(page, ".pack-name").startswith("acme.zip"))
     open_tab(page, "patterns")
     click(page, "[data-pattern='acme:anvil']")
     wait_until(lambda: "acme:anvil" in value(page, "written"))
     open_tab(page, "packs")
+    summary = find(page, ".pack-name summary")
+    assert summary.get_property("scrollWidth") > summary.get_property("clientWidth")
+    summary.click()
+    assert summary.get_property("scrollWidth") <= summary.get_property("clientWidth")
+    assert summary.text.endswith("masks)")
     click(page, "button[aria-label='Remove: acme.zip']")
     line = "acme:anvil is in none of the packs"
     wait_until(lambda: line in text(page, "#panel-layers .warning"))

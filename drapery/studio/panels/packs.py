@@ -93,8 +93,9 @@ def _name(title: str, name: str, summary: str, warnings: tuple[str, ...] = ()) -
     with ui.element("div").classes("pack-name"):
         text_element(title).props.update({"title": name})
         translated_text(summary).classes("hint")
-        for line in warnings:
-            translated_text(line, "p").classes("warning")
+        for line in warnings:  # of all that it names only the first is seen until it is opened
+            with ui.element("details").classes("warning"):
+                translated_text(line, "summary")
 
 
 def _format(session: Session, reading: ui.label) -> None:
