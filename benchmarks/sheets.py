@@ -11,7 +11,7 @@ from typing import Any
 from unittest.mock import patch
 
 from benchmarks.quick import add_quick
-from drapery.cloth import Cloth, Gravity, SolverDesbrun, SolverXPBD, Wind, grid, rest_state
+from drapery.cloth import Cloth, Gravity, SolverXPBD, Wind, grid, rest_state, solver
 from drapery.cloth.solvers.xpbd import enough_substeps
 
 GRIDS = (16, 31), (21, 41), (41, 81)
@@ -24,7 +24,7 @@ class Path:
     """One solver on one grid."""
 
     def __init__(self, name: str, cloth: Cloth, sheet: bool) -> None:
-        self.solver: Any = SolverDesbrun(threads=1)
+        self.solver: Any = solver(name, threads=1)
         if name == "xpbd":
             self.solver = SolverXPBD(threads=1, substeps=enough_substeps(cloth))
         self.cloth, self.best = cloth, 0.0
@@ -58,7 +58,7 @@ def main() -> None:
         seconds, rounds, grids = 0.01, 1, GRIDS[:1]
     print("| solver | grid | general path [steps/s] | plane of lanes [steps/s] | ratio |")
     print("|---|---|---|---|---|")
-    for name in ("desbrun", "xpbd"):
+    for name in ("desbrun", "xpbd", "verlet", "provot"):
         for shape in grids:
             cloth = grid(*shape, 0.8333, 1.6667)
             paths = [Path(name, cloth, sheet) for sheet in (False, True)]

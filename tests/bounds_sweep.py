@@ -64,7 +64,9 @@ OF_OTHER_PINS = "grid without pins", "plane of lanes on two pins", "loose plane 
 OF_POINTS = "sphere", "capsule", "voxels", "mesh", "itself and a sphere"
 """Contact whose kernels see one point after another, and no pin: not with these layouts."""
 OWN_LOOPS = "desbrun", "xpbd"
-"""Solvers with planes of lanes, or whose loop has another form with one substep."""
+"""Solvers whose loop has another form with one substep."""
+PLANES = "desbrun", "provot", "verlet", "xpbd"
+"""Solvers with planes of lanes."""
 
 
 def near(x: float = 0.0, z: float = 0.0) -> Array:
@@ -80,7 +82,7 @@ def layouts(name: str) -> dict[str, tuple[Cloth, int]]:
         "mesh": (upright_disc(), 1),
         "grid without pins": (square(4, 5, "none"), 1),
     }
-    if name in OWN_LOOPS:
+    if name in PLANES:
         found["plane of lanes"] = square(18, 3), 2
         found["plane of lanes on two pins"] = square(17, 3, "corners"), 1
     if name == "desbrun":

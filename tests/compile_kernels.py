@@ -34,7 +34,7 @@ from drapery.cloth import (
 )
 from drapery.settings import SolverName
 
-SHEETS = ("desbrun", "xpbd")
+SHEETS = ("desbrun", "provot", "verlet", "xpbd")
 """The solvers that lay out a fine grid as a sheet."""
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from drapery import elementary
 from drapery.cloth.simd import fill, flush_denormals, lane_count, load, maximum, sqrt, store
 from drapery.cloth.wind import COLUMN, CROSSWIND
-from drapery.jit import kernel, numba_name
+from drapery.jit import borrowing_kernel, kernel, numba_name
 
 TINY = 1e-6
 """The shortest length of a spring over its rest length; it avoids a division by 0."""
@@ -30,7 +30,7 @@ restore_angular_momentum = numba_name(_CHOICES, "restore_angular_momentum")
 sine_of_turns = kernel(elementary.sine_of_turns)
 
 
-@kernel
+@borrowing_kernel
 def load_lanes(y: Any, x: Any, start: Any) -> None:
     """Copy the lanes of x [3N, B] from `start` on into the block y [3N, L]."""
     for row in range(y.shape[0]):
@@ -38,7 +38,7 @@ def load_lanes(y: Any, x: Any, start: Any) -> None:
             y[row, lane] = x[row, np.uintp(start) + np.uintp(lane)]
 
 
-@kernel
+@borrowing_kernel
 def store_lanes(x: Any, y: Any, start: Any) -> None:
     """Copy the block y [3N, L] to the lanes of x [3N, B] from `start` on."""
     for row in range(y.shape[0]):
@@ -46,7 +46,7 @@ def store_lanes(x: Any, y: Any, start: Any) -> None:
             x[row, np.uintp(start) + np.uintp(lane)] = y[row, lane]
 
 
-@kernel
+@borrowing_kernel
 def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) -> None:
     """g += dt/m · F of all springs; one that is longer than at rest pulls its ends together."""
     tiny = x.dtype.type(TINY)
@@ -63,7 +63,7 @@ def add_spring_velocities(g: Any, x: Any, springs: Any, inv_mass: Any, dt: Any) 
             add(g, j, lane, -pull_j * strain, dx, dy, dz)
 
 
-@kernel
+@borrowing_kernel
 def bend(out: Any, x: Any, z: Any, stencils: Any, scale: Any, own: Any, other: Any) -> None:
     """out_i -= scale · part_i · ((1 + own - rest / |d|) d + other · d'), d = Σ w x, d' = Σ w z.
 
@@ -92,7 +92,7 @@ def bend(out: Any, x: Any, z: Any, stencils: Any, scale: Any, own: Any, other: A
                 add(out, d, lane, -scale * part[3], dx, dy, dz)
 
 
-@kernel
+@borrowing_kernel
 def weighted(x: Any, rows: Any, w: Any, lane: Any) -> Any:
     """The sum of four particles by weights; rows: the first rows of their coordinates."""
     a, b, c, d = rows
@@ -106,7 +106,7 @@ def weighted(x: Any, rows: Any, w: Any, lane: Any) -> Any:
     return dx, dy, dz
 
 
-@kernel
+@borrowing_kernel
 def direction(x: Any, i: Any, j: Any, lane: Any) -> Any:
     """The vector from particle i to particle j; i and j are the first rows of their coordinates."""
     return (
@@ -116,7 +116,7 @@ def direction(x: Any, i: Any, j: Any, lane: Any) -> Any:
     )
 
 
-@kernel
+@borrowing_kernel
 def add(x: Any, row: Any, lane: Any, part: Any, dx: Any, dy: Any, dz: Any) -> None:
     """x[row : row + 3, lane ...] += part · (dx, dy, dz)."""
     store(x, row, lane, load(x, row, lane) + part * dx)
@@ -124,7 +124,7 @@ def add(x: Any, row: Any, lane: Any, part: Any, dx: Any, dy: Any, dz: Any) -> No
     store(x, row + 2, lane, load(x, row + 2, lane) + part * dz)
 
 
-@kernel
+@borrowing_kernel
 def shorten(x: Any, attachments: Any) -> None:
     """Provot's correction: pairs over their longest length are shortened to it, in order."""
     for s in range(attachments.longest.size):
@@ -141,7 +141,7 @@ def shorten(x: Any, attachments: Any) -> None:
                 add(x, j, lane, part_j * excess, dx, dy, dz)
 
 
-@kernel
+@borrowing_kernel
 def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any) -> None:
     """Three noise values of unit rms at points `at` [3, L], into out [3, L].
 
@@ -174,33 +174,33 @@ def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any) -> None
         out[0, lane], out[1, lane], out[2, lane] = scale * p[0], scale * p[1], scale * p[2]
 
 
-@kernel
+@borrowing_kernel
 def below(x: Any) -> Any:
     """The floor of x. A loop with np.floor is not vectorised."""
     whole = type(x)(np.int32(x))
     return whole - type(x)(1) if whole > x else whole
 
 
-@kernel
+@borrowing_kernel
 def fade(x: Any) -> Any:
     """Perlin's fade, 6 x⁵ - 15 x⁴ + 10 x³."""
     F = type(x)
     return x * x * x * (x * (x * F(6) - F(15)) + F(10))
 
 
-@kernel
+@borrowing_kernel
 def spread(cell: Any, factor: Any) -> Any:
     """The hash bits of a cell's number along one axis."""
     return np.uint32(np.uint32(np.int32(cell)) * factor)
 
 
-@kernel
+@borrowing_kernel
 def xor_shifted(h: Any, places: Any) -> Any:
     """Bits combined with themselves shifted to the right."""
     return np.uint32(h ^ np.uint32(h >> places))
 
 
-@kernel
+@borrowing_kernel
 def corner(sums: Any, h: Any, weight: Any, x: Any, y: Any, z: Any) -> Any:
     """The three sums plus the part of a corner: its gradient, from bits h, times its offset."""
     F = type(x)
@@ -218,7 +218,7 @@ def corner(sums: Any, h: Any, weight: Any, x: Any, y: Any, z: Any) -> Any:
     )
 
 
-@kernel
+@borrowing_kernel
 def blow(
     wind: Any, x: Any, controls: Any, gusts: Any, number: Any, start: Any, time: Any, work: Any
 ) -> None:
@@ -272,7 +272,7 @@ def blow(
                 )
 
 
-@kernel
+@borrowing_kernel
 def add_wind_velocities(
     g: Any, x: Any, v: Any, body: Any, wind: Any, gusts: Any, number: Any, dt: Any
 ) -> None:
@@ -314,7 +314,7 @@ def add_wind_velocities(
             add(g, 3 * i, lane, push * head_on / area, nx, ny, nz)
 
 
-@kernel
+@borrowing_kernel
 def vector_area(x: Any, faces: Any, i: Any, lane: Any) -> Any:
     """The vector area of the faces around particle i; see `faces.Faces`."""
     nx = ny = nz = fill(x.dtype.type(0))
@@ -333,7 +333,7 @@ def vector_area(x: Any, faces: Any, i: Any, lane: Any) -> Any:
     return nx, ny, nz
 
 
-@kernel
+@borrowing_kernel
 def frame_velocity(mean: Any, v: Any, pins: Any) -> None:
     """Mean velocity of the pins, into mean [3, L]; 0 if there are none."""
     for axis in range(mean.shape[0]):
@@ -345,7 +345,7 @@ def frame_velocity(mean: Any, v: Any, pins: Any) -> None:
                 mean[axis, lane] += part * v[3 * pins[p] + axis, lane]
 
 
-@kernel
+@borrowing_kernel
 def subtract_frame(g: Any, v: Any, mean: Any) -> None:
     """g = v - mean."""
     for row in range(v.shape[0]):
@@ -353,7 +353,7 @@ def subtract_frame(g: Any, v: Any, mean: Any) -> None:
             store(g, row, lane, load(v, row, lane) - load(mean, row % 3, lane))
 
 
-@kernel
+@borrowing_kernel
 def filter_by_products(both: Any, filter: Any, pins: Any) -> None:
     """both[1] = W both[0], pins at 0; both [2, 3N, L]; both[0] is overwritten. See `Filter`."""
     for row in range(3 * pins.size):
@@ -387,7 +387,7 @@ def filter_by_products(both: Any, filter: Any, pins: Any) -> None:
                 both[1, row, lane] += part * both[0, 3 * p + row % 3, lane]
 
 
-@kernel
+@borrowing_kernel
 def filter_by_band(both: Any, filter: Any, pins: Any) -> None:
     """Forward and backward substitution; see `filters.BandFilter`."""
     free, back = filter.lower.shape
@@ -419,12 +419,12 @@ def filter_by_band(both: Any, filter: Any, pins: Any) -> None:
                     to[lane] -= part * other[lane]
 
 
-@kernel
+@borrowing_kernel
 def no_correction(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
     """For cloths with pins."""
 
 
-@kernel
+@borrowing_kernel
 def subtract_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
     """work: [12 or more, L]."""
     F = x.dtype.type
@@ -469,7 +469,7 @@ def subtract_spin(g: Any, x: Any, v: Any, spin: Any, work: Any) -> None:
             g[3 * i + 2, lane] -= gain[0, lane] * ry - gain[1, lane] * rx
 
 
-@kernel
+@borrowing_kernel
 def turn_rate(gain: Any, work: Any, lane: Any) -> None:
     """gain = I⁻¹ gain by Cramer's rule; 0 where the particles lie on a line and I is singular."""
     a, b, c = work[6, lane], work[7, lane], work[8, lane]
@@ -485,7 +485,7 @@ def turn_rate(gain: Any, work: Any, lane: Any) -> None:
     gain[2, lane] = (r * x + t * y + u * z) * rate
 
 
-@kernel
+@borrowing_kernel
 def add_uniform(g: Any, mean: Any, inv_mass: Any, numbers: Any, push: Any, start: Any) -> None:
     """g += mean + dt (gravity + push), then implicit drag: a fall's speed tends to g / drag.
 
@@ -505,7 +505,7 @@ def add_uniform(g: Any, mean: Any, inv_mass: Any, numbers: Any, push: Any, start
             store(g, row, lane, (speed + load(mean, row % 3, lane) + fall) * slow)
 
 
-@kernel
+@borrowing_kernel
 def move(x: Any, u: Any, old: Any, dt: Any) -> None:
     """old = x; x += dt u."""
     for row in range(x.shape[0]):
@@ -515,7 +515,7 @@ def move(x: Any, u: Any, old: Any, dt: Any) -> None:
             store(x, row, lane, here + dt * load(u, row, lane))
 
 
-@kernel
+@borrowing_kernel
 def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any) -> None:
     """Move pins to targets [steps, 3P, B] or [steps, 3P, 1]; [0, ...] leaves them in place."""
     for row in range(3 * pins.size):
@@ -529,7 +529,7 @@ def place_pins(x: Any, old: Any, pins: Any, targets: Any, step: Any, start: Any)
                 x[at, lane] = targets[step, row, 0]
 
 
-@kernel
+@borrowing_kernel
 def set_velocities(v: Any, x: Any, old: Any, dt: Any) -> None:
     """v = (x - old) / dt; components below MIN_SPEED become 0."""
     still, rate = x.dtype.type(MIN_SPEED), x.dtype.type(1 / dt)

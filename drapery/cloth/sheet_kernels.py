@@ -12,19 +12,20 @@ from drapery.cloth import kernels
 from drapery.cloth.kernels import MIN_SPEED, TINY
 from drapery.cloth.simd import fill, flush_denormals, lane_count, load, maximum, sqrt, store
 from drapery.cloth.wind import COLUMN, Gusts
-from drapery.jit import kernel
+from drapery.jit import borrowing_kernel, kernel
 
-LIMIT, SOLVE = 0, 1
-"""The forms of `solve_batches`: a longest length, XPBD's constraint."""
+LIMIT, SOLVE, SHORTEN = 0, 1, 2
+"""The forms of `solve_batches`: a longest length, XPBD's constraint, and Provot's correction, which
+leaves just the longest length."""
 
 
-@kernel
+@borrowing_kernel
 def lane_of(particle: Any, sheet: Any) -> Any:
     """The lane of a particle."""
     return particle // sheet.columns * sheet.width + particle % sheet.columns
 
 
-@kernel
+@borrowing_kernel
 def load_plane(y: Any, x: Any, cloth: Any, sheet: Any) -> None:
     """Copy one cloth of x [3N, B] into the plane y [3, lanes]."""
     for particle in range(x.shape[0] // 3):
@@ -32,7 +33,7 @@ def load_plane(y: Any, x: Any, cloth: Any, sheet: Any) -> None:
             y[axis, lane_of(particle, sheet)] = x[3 * particle + axis, cloth]
 
 
-@kernel
+@borrowing_kernel
 def store_plane(x: Any, y: Any, cloth: Any, sheet: Any) -> None:
     """Copy the plane y [3, lanes] into one cloth of x [3N, B]."""
     for particle in range(x.shape[0] // 3):
@@ -40,7 +41,7 @@ def store_plane(x: Any, y: Any, cloth: Any, sheet: Any) -> None:
             x[3 * particle + axis, cloth] = y[axis, lane_of(particle, sheet)]
 
 
-@kernel
+@borrowing_kernel
 def directions(x: Any, a: Any, b: Any) -> Any:
     """The vectors from the lanes at a to those at b."""
     return (
@@ -50,7 +51,7 @@ def directions(x: Any, a: Any, b: Any) -> Any:
     )
 
 
-@kernel
+@borrowing_kernel
 def add_spring_velocities(g: Any, x: Any, batches: Any, work: Any) -> None:
     """g += dt/m · F, where the parts are dt k / m. work: see `move_both`."""
     tiny, lead = x.dtype.type(TINY), work.shape[1] // 2
@@ -67,7 +68,7 @@ def add_spring_velocities(g: Any, x: Any, batches: Any, work: Any) -> None:
         move_both(g, batches, entry, work)
 
 
-@kernel
+@borrowing_kernel
 def move_both(x: Any, batches: Any, entry: Any, work: Any) -> None:
     """x_a += part_i w, x_b -= part_j w, in one loop over the lanes from a.
 
@@ -85,12 +86,14 @@ def move_both(x: Any, batches: Any, entry: Any, work: Any) -> None:
             store(x, axis, a + n, load(x, axis, a + n) - loss)
 
 
-@kernel
-def solve_batches(x: Any, batches: Any, begin: Any, end: Any, form: Any, work: Any) -> None:
-    """Entries begin..end: x_a += part_i e (x_b - x_a), x_b -= part_j e (x_b - x_a).
+@borrowing_kernel
+def solve_batches(
+    x: Any, out: Any, batches: Any, begin: Any, end: Any, form: Any, work: Any
+) -> None:
+    """Entries begin..end: out_a += part_i e (x_b - x_a), out_b -= part_j e (x_b - x_a).
 
-    e is the strain of XPBD's constraint, or the strain of lengths over the longest one. work: see
-    `move_both`.
+    e is the strain of XPBD's constraint, or that of lengths over the longest one; see LIMIT. If out
+    is the same array as x, each entry sees what those before it moved. work: see `move_both`.
     """
     lead, none = work.shape[1] // 2, fill(x.dtype.type(0))
     for entry in range(begin, end):
@@ -99,22 +102,27 @@ def solve_batches(x: Any, batches: Any, begin: Any, end: Any, form: Any, work: A
         for n in range(0, batches.lanes[entry], lane_count(x)):
             dx, dy, dz = directions(x, a + n, b + n)
             length = load(batches.values, 0, start + n)
-            rest = length * length
-            square = maximum(dx * dx + dy * dy + dz * dz, rest if form == LIMIT else none)
-            e = (square - rest) / (square + rest)
+            square = dx * dx + dy * dy + dz * dz
+            if form == SHORTEN:
+                d = maximum(sqrt(square), length)
+                e = (d - length) / d
+            else:
+                rest = length * length
+                square = maximum(square, rest if form == LIMIT else none)
+                e = (square - rest) / (square + rest)
             if crossing:
                 store(work, 0, lead + n, e * dx)
                 store(work, 1, lead + n, e * dy)
                 store(work, 2, lead + n, e * dz)
             else:
                 if not held:
-                    kernels.add(x, 0, a + n, load(batches.values, 1, start + n) * e, dx, dy, dz)
-                kernels.add(x, 0, b + n, -load(batches.values, 2, start + n) * e, dx, dy, dz)
+                    kernels.add(out, 0, a + n, load(batches.values, 1, start + n) * e, dx, dy, dz)
+                kernels.add(out, 0, b + n, -load(batches.values, 2, start + n) * e, dx, dy, dz)
         if crossing:
-            move_both(x, batches, entry, work)
+            move_both(out, batches, entry, work)
 
 
-@kernel
+@borrowing_kernel
 def bend(
     out: Any,
     x: Any,
@@ -146,7 +154,7 @@ def bend(
                 store(out, axis, n, load(out, axis, n) - change)
 
 
-@kernel
+@borrowing_kernel
 def weighted(x: Any, axis: Any, n: Any, shifts: Any, w: Any, sign: Any) -> Any:
     """The sum by weights of the lanes at the shifts from n, to the left if the sign is -1."""
     total = w[0] * load(x, axis, n + sign * shifts[0])
@@ -157,7 +165,7 @@ def weighted(x: Any, axis: Any, n: Any, shifts: Any, w: Any, sign: Any) -> Any:
     return total
 
 
-@kernel
+@borrowing_kernel
 def place(y: Any, sheet: Any, targets: Any, turn: Any, cloth: Any) -> None:
     """Move pins along their path, or leave them in place; then fill the planes of anchors."""
     for p in range(sheet.pins.size):
@@ -181,13 +189,15 @@ def place(y: Any, sheet: Any, targets: Any, turn: Any, cloth: Any) -> None:
 
 @kernel
 def wind_scratch(sheet: Any, gusts: Any, dtype: Any) -> Any:
-    """Arrays for `add_wind`."""
-    samples = sheet.controls.size
+    """Arrays for `blow` and `add_winds`: places of the samples, each wind at them, the sum of its
+    waves at each lane [m/s], and work for both."""
+    samples, count = sheet.controls.size, gusts.seeds.size
     return (
         np.empty((3, samples), dtype),
-        np.empty((3 + 2 * gusts.rates.shape[1], samples), dtype),
+        np.empty((count, 3 + 2 * gusts.rates.shape[1], samples), dtype),
+        np.empty((count, sheet.plane), dtype),
         np.empty((18, samples), dtype),
-        np.zeros((7, sheet.width + 64), dtype),
+        np.zeros((6, sheet.width + 64), dtype),
     )
 
 
@@ -215,26 +225,30 @@ def own_gusts(gusts: Any, cloth: Any, samples: Any) -> Any:
 
 
 @kernel
-def add_wind(
-    g: Any, y: Any, v: Any, sheet: Any, gusts: Any, number: Any, time: Any, dt: Any, scratch: Any
-) -> None:
-    """g += dt/m · F of one wind; see `kernels.add_wind_velocities`. v may be the same array as g.
-
-    scratch: at, wind and work of the samples, and work [7, width and two registers].
-    """
-    at, wind, samples_work, work = scratch
+def blow(y: Any, sheet: Any, gusts: Any, time: Any, scratch: Any) -> None:
+    """Set the winds at the samples, and their waves, at a time [s]. scratch: see `wind_scratch`."""
+    at, winds, waves, work, _ = scratch
     for sample in range(sheet.controls.size):
         for axis in range(3):
             at[axis, sample] = y[axis, lane_of(sheet.controls[sample], sheet)]
-    kernels.blow(wind, at, np.zeros(1, np.int32), gusts, number, 0, time, samples_work)
-    pressure = y.dtype.type(dt * gusts.numbers[number, COLUMN.pressure])
-    for row in range(sheet.rows):
-        relative_wind(work, v, wind, sheet, row)
-        blow_waves(work, wind, gusts.sines[number], gusts.cosines[number], sheet, row)
-        press(g, y, work, sheet, row, pressure)
+    for number in range(gusts.seeds.size):
+        kernels.blow(winds[number], at, np.zeros(1, np.int32), gusts, number, 0, time, work)
+        blow_waves(waves, number, winds[number], gusts.sines[number], gusts.cosines[number], sheet)
 
 
-@kernel
+@borrowing_kernel
+def add_winds(g: Any, y: Any, v: Any, sheet: Any, gusts: Any, dt: Any, scratch: Any) -> None:
+    """g += dt/m · F of the winds that `blow` set; see `kernels.add_wind_velocities`. v may be the
+    same array as g."""
+    _, winds, waves, _, work = scratch
+    for number in range(gusts.seeds.size):
+        pressure = y.dtype.type(dt * gusts.numbers[number, COLUMN.pressure])
+        for row in range(sheet.rows):
+            relative_wind(work, v, winds[number], sheet, row)
+            press(g, y, work, waves, number, sheet, row, pressure)
+
+
+@borrowing_kernel
 def relative_wind(work: Any, v: Any, wind: Any, sheet: Any, row: Any) -> None:
     """Wind less velocity along a row, into work[0:3]."""
     low, first = sheet.low[row], sheet.above[row] * sheet.across.shape[0]
@@ -249,20 +263,24 @@ def relative_wind(work: Any, v: Any, wind: Any, sheet: Any, row: Any) -> None:
             store(work, axis, lane, flow)
 
 
-@kernel
-def blow_waves(work: Any, wind: Any, sines: Any, cosines: Any, sheet: Any, row: Any) -> None:
-    """The sum of the waves along a row [m/s], into work[6]; their phases follow wind[0:3]."""
-    for lane in range(0, sheet.width, lane_count(work)):
-        total, at = fill(work.dtype.type(0)), row * sheet.columns + lane
-        for wave in range(sines.shape[0]):
-            total = total + wind[3 + 2 * wave, 0] * load(sines, wave, at)
-            total = total + wind[4 + 2 * wave, 0] * load(cosines, wave, at)
-        store(work, 6, lane, total)
+@borrowing_kernel
+def blow_waves(waves: Any, number: Any, wind: Any, sines: Any, cosines: Any, sheet: Any) -> None:
+    """The sum of the waves of a wind at each lane [m/s], into waves[number]; their phases follow
+    wind[0:3]."""
+    for row in range(sheet.rows):
+        for lane in range(0, sheet.width, lane_count(waves)):
+            total, at = fill(waves.dtype.type(0)), row * sheet.columns + lane
+            for wave in range(sines.shape[0]):
+                total = total + wind[3 + 2 * wave, 0] * load(sines, wave, at)
+                total = total + wind[4 + 2 * wave, 0] * load(cosines, wave, at)
+            store(waves, number, row * sheet.width + lane, total)
 
 
-@kernel
-def press(g: Any, y: Any, work: Any, sheet: Any, row: Any, pressure: Any) -> None:
-    """g += pressure / m (u · n / |n| + w) n along a row with u in work[0:3] and w in work[6].
+@borrowing_kernel
+def press(
+    g: Any, y: Any, work: Any, waves: Any, number: Any, sheet: Any, row: Any, pressure: Any
+) -> None:
+    """g += pressure / m (u · n / |n| + w) n along a row with u in work[0:3] and w in waves[number].
 
     n: vector areas, a quarter of (right - left) x (above - below).
     """
@@ -283,12 +301,12 @@ def press(g: Any, y: Any, work: Any, sheet: Any, row: Any, pressure: Any) -> Non
         nx, ny, nz = py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx
         head_on = nx * load(work, 0, lane) + ny * load(work, 1, lane) + nz * load(work, 2, lane)
         area = sqrt(nx * nx + ny * ny + nz * nz) + tiny
-        head_on = head_on + area * load(work, 6, lane)
+        head_on = head_on + area * load(waves, number, line + lane)
         push = pressure * load(sheet.inv_mass, row, lane) * head_on / area
         kernels.add(g, 0, line + lane, push, nx, ny, nz)
 
 
-@kernel
+@borrowing_kernel
 def add_push(g: Any, sheet: Any, push: Any, dt: Any, cloth: Any) -> None:
     """g += dt push [3N, B], or nothing if it is empty."""
     for particle in range(push.shape[0] // 3):
@@ -296,7 +314,7 @@ def add_push(g: Any, sheet: Any, push: Any, dt: Any, cloth: Any) -> None:
             g[axis, lane_of(particle, sheet)] += dt * push[3 * particle + axis, cloth]
 
 
-@kernel
+@borrowing_kernel
 def transform(out: Any, values: Any, matrix: Any, sheet: Any) -> None:
     """For each row: out = sum_c values[c] matrix[c]; lanes beside the grid are 0."""
     width, none = sheet.width, fill(out.dtype.type(0))
@@ -316,7 +334,7 @@ def transform(out: Any, values: Any, matrix: Any, sheet: Any) -> None:
             store(out, 2, line + lane, z + w)
 
 
-@kernel
+@borrowing_kernel
 def solve_columns(w: Any, filter: Any, sheet: Any) -> None:
     """Solve the band matrix of each wave's column in place: L, D, then the transpose of L."""
     width, count = sheet.width, filter.inverse.shape[0]
@@ -341,7 +359,7 @@ def solve_columns(w: Any, filter: Any, sheet: Any) -> None:
                 store(w, axis, at, value)
 
 
-@kernel
+@borrowing_kernel
 def filter_sheet(g: Any, other: Any, filter: Any, sheet: Any) -> None:
     """g = W g with pins at 0; see `filters.SheetFilter`. other is as large as g."""
     for axis in range(3):
@@ -360,7 +378,7 @@ def filter_sheet(g: Any, other: Any, filter: Any, sheet: Any) -> None:
                 store(g, axis, lane, load(g, axis, lane) + part * load(filter.release, p, lane))
 
 
-@kernel
+@borrowing_kernel
 def subtract_mean(g: Any, v: Any, mean: Any, sheet: Any) -> None:
     """mean [3] = the pins' mean velocity, or 0; g = v - mean."""
     for axis in range(3):
@@ -373,18 +391,18 @@ def subtract_mean(g: Any, v: Any, mean: Any, sheet: Any) -> None:
             store(g, axis, lane, load(v, axis, lane) - part)
 
 
-@kernel
-def fall(g: Any, mean: Any, sheet: Any, numbers: Any) -> None:
+@borrowing_kernel
+def fall(g: Any, mean: Any, sheet: Any, numbers: Any, dt: Any) -> None:
     """g = (g + mean + dt gravity) less drag, 0 for pins: see `kernels.add_uniform`."""
     F = g.dtype.type
-    slow = F(1 / (1 + numbers[0] * numbers[1]))
+    slow = F(1 / (1 + dt * numbers[1]))
     for axis in range(3):
-        gain = mean[axis] + F(numbers[0] * numbers[3 + axis])
+        gain = mean[axis] + F(dt * numbers[3 + axis])
         for lane in range(0, sheet.size, lane_count(g)):
             store(g, axis, lane, (load(g, axis, lane) + gain) * slow * load(sheet.free, 0, lane))
 
 
-@kernel
+@borrowing_kernel
 def move(y: Any, g: Any, old: Any, dt: Any, sheet: Any) -> None:
     """old = y; y += dt g."""
     for axis in range(3):
@@ -394,7 +412,17 @@ def move(y: Any, g: Any, old: Any, dt: Any, sheet: Any) -> None:
             store(y, axis, lane, here + dt * load(g, axis, lane))
 
 
-@kernel
+@borrowing_kernel
+def take_free(v: Any, g: Any, sheet: Any) -> None:
+    """v = g, in which pins have 0; they keep their velocities."""
+    one = fill(v.dtype.type(1))
+    for axis in range(3):
+        for lane in range(0, sheet.size, lane_count(g)):
+            held = one - load(sheet.free, 0, lane)
+            store(v, axis, lane, load(g, axis, lane) + held * load(v, axis, lane))
+
+
+@borrowing_kernel
 def slow_down(v: Any, sheet: Any, numbers: Any, dt: Any) -> None:
     """Apply drag over dt before gravity is added; see `xpbd.add_pushes`."""
     F = v.dtype.type
@@ -406,7 +434,7 @@ def slow_down(v: Any, sheet: Any, numbers: Any, dt: Any) -> None:
             store(v, axis, lane, speed * load(sheet.free, 0, lane))
 
 
-@kernel
+@borrowing_kernel
 def drift(y: Any, old: Any, v: Any, sheet: Any, numbers: Any, moves_by_v: Any) -> None:
     """Move y by v, or else as in the last substep, and by gravity; old is y before."""
     F = y.dtype.type
@@ -420,7 +448,7 @@ def drift(y: Any, old: Any, v: Any, sheet: Any, numbers: Any, moves_by_v: Any) -
             store(old, axis, lane, here)
 
 
-@kernel
+@borrowing_kernel
 def set_velocities(v: Any, y: Any, old: Any, h: Any, sheet: Any) -> None:
     """v = (y - old) / h; components below MIN_SPEED become 0."""
     still, rate = y.dtype.type(MIN_SPEED), y.dtype.type(1 / h)
@@ -430,7 +458,7 @@ def set_velocities(v: Any, y: Any, old: Any, h: Any, sheet: Any) -> None:
             store(v, axis, lane, flush_denormals(speed, still))
 
 
-@kernel
+@borrowing_kernel
 def add_velocities(v: Any, y: Any, old: Any, dt: Any, sheet: Any) -> None:
     """v += (y - old) / dt."""
     rate = y.dtype.type(1 / dt)

@@ -218,6 +218,14 @@ def sheet_bending(sheet: SheetLayout, bending: Bending) -> SheetBending:
     return SheetBending(shifts, weights, values, inv_mass, np.array([bending.damping]))
 
 
+def spring_batches(sheet: SheetLayout, cloth: Cloth, time: float) -> ConstraintBatches:
+    """The springs of a grid, with parts that make velocities of forces in a time [s]."""
+    pairs = cloth.spring_pairs
+    part_i, part_j = (time * cloth.spring_stiffness[:, None] * cloth.inv_mass[pairs]).T
+    springs = Pairs(pairs, cloth.spring_length, part_i, part_j)
+    return constraint_batches(list(together(sheet, springs)))
+
+
 def together(sheet: SheetLayout, pairs: Pairs) -> Iterator[ConstraintBatch]:
     """Pairs of particles, a batch for each direction; for sums, whose order does not matter."""
     for shift, values in _by_shift(sheet, pairs):

@@ -32,15 +32,13 @@ from drapery.cloth.filters import (
 )
 from drapery.cloth.sheets import (
     ConstraintBatches,
-    Pairs,
     SheetBending,
     SheetLayout,
-    constraint_batches,
     is_sheet,
     limits,
     sheet_bending,
     sheet_of,
-    together,
+    spring_batches,
 )
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
@@ -124,12 +122,9 @@ class SolverDesbrun(KernelSolver):
 def sheet_plan(cloth: Cloth, dt: float, limit: float, sweeps: int) -> DesbrunSheetPlan:
     """The plan of a fine grid, which is laid out as a plane of lanes."""
     sheet = sheet_of(cloth, *wind_faces(cloth))
-    pairs = cloth.spring_pairs
-    part_i, part_j = (dt * cloth.spring_stiffness[:, None] * cloth.inv_mass[pairs]).T
-    springs = Pairs(pairs, cloth.spring_length, part_i, part_j)
     return DesbrunSheetPlan(
         sheet,
-        constraint_batches(list(together(sheet, springs))),
+        spring_batches(sheet, cloth, dt),
         sheet_bending(sheet, cloth.bending),
         limits(sheet, cloth, limit, sweeps),
         sheet_filter(cloth, dt, sheet.width),
@@ -199,14 +194,14 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 g, y, u, plan.bending, sheet, dt, dtype.type(0), plan.bending.damping[0], work
             )
             sheet_kernels.filter_sheet(g, old, plan.filter, sheet)
-            for number in range(gusts.seeds.size):
-                sheet_kernels.add_wind(g, y, u, sheet, gusts, number, time, dt, scratch)
+            sheet_kernels.blow(y, sheet, gusts, time, scratch)
+            sheet_kernels.add_winds(g, y, u, sheet, gusts, dt, scratch)
             sheet_kernels.add_push(g, sheet, batch.push, dt, cloth)
-            sheet_kernels.fall(g, mean, sheet, batch.numbers)
+            sheet_kernels.fall(g, mean, sheet, batch.numbers, batch.numbers[0])
             sheet_kernels.move(y, g, old, dt, sheet)
             sheet_kernels.place(y, sheet, batch.targets, step, cloth)
             sheet_kernels.solve_batches(
-                y, plan.attachments, 0, plan.attachments.a.size, sheet_kernels.LIMIT, work
+                y, y, plan.attachments, 0, plan.attachments.a.size, sheet_kernels.LIMIT, work
             )
             sheet_kernels.set_velocities(u, y, old, dt, sheet)
             step, again = lanes_contact.meet_plane_substep(

@@ -40,7 +40,7 @@ from drapery.cloth.solvers.driver import (
     movable,
 )
 from drapery.cloth.strain import allowed_stretch, strain_limit
-from drapery.jit import borrowing_kernel, entry_point, kernel
+from drapery.jit import borrowing_kernel, entry_point
 from drapery.mesh import Array
 
 TOLERATED = 1.005
@@ -198,7 +198,7 @@ def mass_shares(cloth: Cloth, pairs: NDArray[np.integer]) -> Array:
     return shares
 
 
-@kernel
+@borrowing_kernel
 def relax(y: Any, constraints: Any) -> None:
     """One Gauss-Seidel pass: each pair in turn is moved to its distance."""
     tiny = fill(y.dtype.type(1e-30))
@@ -214,7 +214,7 @@ def relax(y: Any, constraints: Any) -> None:
             add(y, j, lane, part_j * part, dx, dy, dz)
 
 
-@kernel
+@borrowing_kernel
 def shorten_too_long(y: Any, attachments: Any, sweeps: Any, factors: Any) -> None:
     """Sweep over the lanes in which a pair is too far apart, each lane until it has none.
 
@@ -239,7 +239,7 @@ def shorten_too_long(y: Any, attachments: Any, sweeps: Any, factors: Any) -> Non
                 add(y, j, lane, part_j * excess, dx, dy, dz)
 
 
-@kernel
+@borrowing_kernel
 def mark_too_long(factors: Any, y: Any, attachments: Any) -> Any:
     """Factors: 1 for lanes with a pair over TOLERATED times its longest length, else BEYOND.
 
@@ -263,7 +263,7 @@ def mark_too_long(factors: Any, y: Any, attachments: Any) -> Any:
     return found
 
 
-@kernel
+@borrowing_kernel
 def damp(u: Any, keep: Any) -> None:
     for row in range(u.shape[0]):
         for lane in range(u.shape[1]):

@@ -12,9 +12,11 @@ the same correction but integrates implicitly, and from verlet, which corrects i
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from drapery.cloth import kernels
+from drapery.cloth import kernels, sheet_kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.cloth import FLEXION, Cloth
+from drapery.cloth.sheets import in_turn, is_sheet
+from drapery.cloth.solvers import planes
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     SHARED,
@@ -29,7 +31,7 @@ from drapery.cloth.solvers.driver import (
     loop_around,
     movable,
 )
-from drapery.cloth.strain import allowed_stretch, strain_limit
+from drapery.cloth.strain import allowed_stretch, plane_squares, strain_limit
 from drapery.jit import borrowing_kernel, entry_point
 
 
@@ -60,10 +62,17 @@ class SolverProvot(KernelSolver):
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
-        plan = ProvotPlan(body_of(cloth), listed_attachments(cloth, self.limit))
-        substeps = chosen_substeps(self.substeps, cloth, dt)
+        attachments = listed_attachments(cloth, self.limit)
+        substeps, options = chosen_substeps(self.substeps, cloth, dt), (self.sweeps,)
         limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
-        return SolverState(plan, dt, substeps, _advance, (self.sweeps,), limit=limit, shares=SHARED)
+        if is_sheet(cloth):
+            fine = planes.plane_plan(cloth, dt / substeps, attachments, in_turn)
+            squares = plane_squares(fine.sheet, limit)
+            return SolverState(
+                fine, dt, substeps, _advance_plane, options, True, limit=limit, squares=squares
+            )
+        plan = ProvotPlan(body_of(cloth), attachments)
+        return SolverState(plan, dt, substeps, _advance, options, limit=limit, shares=SHARED)
 
 
 def listed_attachments(cloth: Cloth, limit: float) -> Attachments:
@@ -96,3 +105,28 @@ def _advance(
 ) -> None:
     """Steps of lanes first..last."""
     _advance_blocks(first, last, plan, batch, steps, substeps, (sweeps,))
+
+
+@borrowing_kernel
+def _plane_substep(block: Any, plan: Any, h: Any, number: Any, options: Any) -> None:
+    """The same for a plane of lanes."""
+    y, old, sheet, attachments = block.y, block.old, plan.sheet, plan.attachments
+    (sweeps,) = options
+    planes.kick(block, plan, h)
+    sheet_kernels.move(y, block.g, old, h, sheet)
+    sheet_kernels.place(y, sheet, block.targets, number, block.cloth)
+    for _ in range(sweeps):
+        last = attachments.a.size
+        sheet_kernels.solve_batches(y, y, attachments, 0, last, sheet_kernels.SHORTEN, block.work)
+    sheet_kernels.set_velocities(block.u, y, old, h, sheet)
+
+
+_advance_planes = planes.loop_around_plane(_plane_substep)
+
+
+@entry_point
+def _advance_plane(
+    first: Any, last: Any, plan: Any, batch: Any, steps: Any, substeps: Any, sweeps: Any
+) -> None:
+    """Steps of cloths first..last, one after another."""
+    _advance_planes(first, last, plan, batch, steps, substeps, (sweeps,))

@@ -16,12 +16,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drapery.cloth import kernels
+from drapery.cloth import kernels, sheet_kernels
 from drapery.cloth.attachments import Attachments
 from drapery.cloth.checks import check_number
 from drapery.cloth.cloth import STRUCTURAL, Cloth
 from drapery.cloth.kernels import add, direction
-from drapery.cloth.simd import fill, lane_count, maximum, sqrt
+from drapery.cloth.sheets import is_sheet, together
+from drapery.cloth.simd import fill, lane_count, load, maximum, sqrt, store
+from drapery.cloth.solvers import planes
 from drapery.cloth.solvers.base import check_step
 from drapery.cloth.solvers.driver import (
     SHARED,
@@ -36,8 +38,8 @@ from drapery.cloth.solvers.driver import (
     loop_around,
     movable,
 )
-from drapery.cloth.strain import allowed_stretch, strain_limit
-from drapery.jit import borrowing_kernel, entry_point, kernel
+from drapery.cloth.strain import allowed_stretch, plane_squares, strain_limit
+from drapery.jit import borrowing_kernel, entry_point
 
 
 class VerletPlan(NamedTuple):
@@ -71,10 +73,17 @@ class SolverVerlet(KernelSolver):
 
     def init(self, cloth: Cloth, dt: float) -> SolverState:
         check_step(dt, 1)
-        plan = VerletPlan(body_of(cloth), half_attachments(cloth, self.limit, self.relaxation))
-        substeps = chosen_substeps(self.substeps, cloth, dt)
+        attachments = half_attachments(cloth, self.limit, self.relaxation)
+        substeps, options = chosen_substeps(self.substeps, cloth, dt), (self.sweeps,)
         limit = strain_limit(cloth, allowed_stretch(self.limit, self.sweeps))
-        return SolverState(plan, dt, substeps, _advance, (self.sweeps,), limit=limit, shares=SHARED)
+        if is_sheet(cloth):
+            fine = planes.plane_plan(cloth, dt / substeps / 2, attachments, together)
+            squares = plane_squares(fine.sheet, limit)
+            return SolverState(
+                fine, dt, substeps, _advance_plane, options, True, limit=limit, squares=squares
+            )
+        plan = VerletPlan(body_of(cloth), attachments)
+        return SolverState(plan, dt, substeps, _advance, options, limit=limit, shares=SHARED)
 
 
 def half_attachments(cloth: Cloth, limit: float, relaxation: float) -> Attachments:
@@ -86,7 +95,7 @@ def half_attachments(cloth: Cloth, limit: float, relaxation: float) -> Attachmen
     return Attachments(pairs, longest, part_i, part_j)
 
 
-@kernel
+@borrowing_kernel
 def shorten_together(y: Any, attachments: Any, sums: Any) -> None:
     """One Jacobi sweep: corrections from the same positions are summed, then applied."""
     none = y.dtype.type(0)
@@ -135,3 +144,44 @@ def _advance(
 ) -> None:
     """Steps of lanes first..last."""
     _advance_blocks(first, last, plan, batch, steps, substeps, (sweeps,))
+
+
+@borrowing_kernel
+def _plane_substep(block: Any, plan: Any, h: Any, number: Any, options: Any) -> None:
+    """The same for a plane of lanes."""
+    y, u, g, old, sheet = block.y, block.u, block.g, block.old, plan.sheet
+    half = y.dtype.type(block.numbers[0] / 2)
+    (sweeps,) = options
+    planes.kick(block, plan, half)
+    sheet_kernels.move(y, g, old, h, sheet)
+    sheet_kernels.place(y, sheet, block.targets, number, block.cloth)
+    for _ in range(sweeps):
+        shorten_plane(y, g, plan.attachments, sheet, block.work)
+    sheet_kernels.set_velocities(u, y, old, h, sheet)
+    planes.kick(block, plan, half)
+    sheet_kernels.take_free(u, g, sheet)
+
+
+@borrowing_kernel
+def shorten_plane(y: Any, sums: Any, attachments: Any, sheet: Any, work: Any) -> None:
+    """`shorten_together` for a plane of lanes."""
+    none = fill(y.dtype.type(0))
+    for axis in range(3):
+        for lane in range(0, sheet.size, lane_count(y)):
+            store(sums, axis, lane, none)
+    last = attachments.a.size
+    sheet_kernels.solve_batches(y, sums, attachments, 0, last, sheet_kernels.SHORTEN, work)
+    for axis in range(3):
+        for lane in range(0, sheet.size, lane_count(y)):
+            store(y, axis, lane, load(y, axis, lane) + load(sums, axis, lane))
+
+
+_advance_planes = planes.loop_around_plane(_plane_substep)
+
+
+@entry_point
+def _advance_plane(
+    first: Any, last: Any, plan: Any, batch: Any, steps: Any, substeps: Any, sweeps: Any
+) -> None:
+    """Steps of cloths first..last, one after another."""
+    _advance_planes(first, last, plan, batch, steps, substeps, (sweeps,))

@@ -67,7 +67,7 @@ from drapery.cloth.solvers.driver import (
     wind_lanes,
 )
 from drapery.cloth.strain import MOST_STRETCH, plane_squares, strain_limit
-from drapery.jit import entry_point, kernel
+from drapery.jit import borrowing_kernel, entry_point
 from drapery.mesh import Array
 
 SLACK = 1.02
@@ -312,7 +312,7 @@ def sheet_plan(
     )
 
 
-@kernel
+@borrowing_kernel
 def solve(x: Any, constraints: Any, substep: Any) -> None:
     """The constraints of one substep, one after another."""
     for s in range(constraints.begin[substep], constraints.begin[substep + 1]):
@@ -327,7 +327,7 @@ def solve(x: Any, constraints: Any, substep: Any) -> None:
             add(x, j, lane, part_j * strain, dx, dy, dz)
 
 
-@kernel
+@borrowing_kernel
 def apply_attachments(x: Any, attachments: Any) -> None:
     """Move particles that are too far from their pins back; see the module for the constraint."""
     for s in range(attachments.longest.size):
@@ -340,7 +340,7 @@ def apply_attachments(x: Any, attachments: Any) -> None:
             add(x, i, lane, (limit - square) / (limit + square), dx, dy, dz)
 
 
-@kernel
+@borrowing_kernel
 def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, moves_by_v: Any) -> None:
     """New positions, into old: x moves by v, or else as in the last substep, and by gravity.
 
@@ -358,7 +358,7 @@ def drift(x: Any, old: Any, v: Any, inv_mass: Any, numbers: Any, moves_by_v: Any
             store(old, row, lane, here + (motion + fall))
 
 
-@kernel
+@borrowing_kernel
 def add_pushes(u: Any, inv_mass: Any, numbers: Any, push: Any, dt: Any, start: Any) -> None:
     """u += dt push, then implicit drag over dt; see `kernels.add_uniform`.
 
@@ -466,8 +466,8 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
         step, careful = 0, always
         while step < steps:
             time = batch.numbers[2] + step * substeps * batch.numbers[0]
-            for number in range(gusts.seeds.size):
-                sheet_kernels.add_wind(u, y, u, sheet, gusts, number, time, dt, scratch)
+            sheet_kernels.blow(y, sheet, gusts, time, scratch)
+            sheet_kernels.add_winds(u, y, u, sheet, gusts, dt, scratch)
             sheet_kernels.add_push(u, sheet, batch.push, dt, cloth)
             sheet_kernels.slow_down(u, sheet, batch.numbers, dt)
             for substep in range(substeps):
@@ -484,12 +484,12 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 sheet_kernels.place(y, sheet, batch.targets, turn, cloth)
                 begin, end = plan.begin[substep], plan.begin[substep + 1]
                 sheet_kernels.solve_batches(
-                    y, plan.constraints, begin, end, sheet_kernels.SOLVE, work
+                    y, y, plan.constraints, begin, end, sheet_kernels.SOLVE, work
                 )
                 if (substeps - substep) % INTERVAL == 1:
                     last = plan.attachments.a.size
                     sheet_kernels.solve_batches(
-                        y, plan.attachments, 0, last, sheet_kernels.LIMIT, work
+                        y, y, plan.attachments, 0, last, sheet_kernels.LIMIT, work
                     )
                 if careful and substep + 1 < substeps:
                     sheet_kernels.set_velocities(u, y, old, h, sheet)
@@ -500,7 +500,7 @@ def _advance_sheet(first: int, last: int, plan: Any, batch: Any, steps: int, sub
                 sheet_kernels.move(y, u, old, dtype.type(0), sheet)
                 last_limit = plan.limits.a.size
                 sheet_kernels.solve_batches(
-                    y, plan.limits, 0, last_limit, sheet_kernels.LIMIT, work
+                    y, y, plan.limits, 0, last_limit, sheet_kernels.LIMIT, work
                 )
                 sheet_kernels.add_velocities(u, y, old, dt, sheet)
             when = step, (substeps - 1) / substeps if careful else 0.0, 1.0
