@@ -92,7 +92,7 @@ def solve_batches(
 ) -> None:
     """Entries begin..end: out_a += part_i e (x_b - x_a), out_b -= part_j e (x_b - x_a).
 
-    e is the strain of XPBD's constraint, or that of lengths over the longest one; see LIMIT. If out
+    e is the strain of XPBD's constraint, or a strain over the longest length; see LIMIT. If out
     is the same array as x, each entry sees what those before it moved. work: see `move_both`.
     """
     lead, none = work.shape[1] // 2, fill(x.dtype.type(0))

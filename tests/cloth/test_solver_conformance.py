@@ -78,6 +78,8 @@ def exact(name: str, **options: Any) -> Solver:
 FREE = [
     *((name, "grid without pins", {}) for name in SOLVERS),
     ("desbrun", "loose plane of lanes", {"angular": "none"}),
+    ("provot", "loose plane of lanes", {}),
+    ("verlet", "loose plane of lanes", {}),
 ]
 
 

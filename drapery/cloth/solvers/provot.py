@@ -2,7 +2,8 @@
 (Graphics Interface 1995): Euler's method, then the dynamic inverse.
 
 Order 1: v' = v + dt a(x), x' = x + dt v' (nowadays called symplectic Euler). Then every spring that
-is too long is shortened to its longest length, one after another in the order of the cloth. Both
+is too long is shortened to its longest length, one after another in the order of the cloth; in a
+grid of 16 or more columns, one direction after another, each in parts that share no particle. Both
 ends share the correction; a pinned end takes none of it. The velocities are computed from the
 corrected positions. The method is explicit, so the stiffest spring decides the number of substeps.
 Choose it to compare the other methods with their origin. It differs from desbrun, which ends with
