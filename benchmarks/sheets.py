@@ -12,6 +12,7 @@ from unittest.mock import patch
 
 from benchmarks.quick import add_quick
 from drapery.cloth import Cloth, Gravity, SolverXPBD, Wind, grid, rest_state, solver
+from drapery.cloth.solvers import xpbd
 from drapery.cloth.solvers.xpbd import enough_substeps
 
 GRIDS = (16, 31), (21, 41), (41, 81)
@@ -28,6 +29,7 @@ class Path:
         if name == "xpbd":
             self.solver = SolverXPBD(threads=1, substeps=enough_substeps(cloth))
         self.cloth, self.best = cloth, 0.0
+        xpbd._remembered.cache_clear()  # it would give the other path's plan
         with patch(f"drapery.cloth.solvers.{name}.is_sheet", lambda cloth: sheet):
             self.solver_state = self.solver.init(cloth, DT)
         self.state = rest_state(cloth)
