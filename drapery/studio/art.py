@@ -7,7 +7,6 @@ from weakref import WeakKeyDictionary
 from zlib import crc32
 
 from drapery import Banner, OptionError, Settings
-from drapery.banner import write_banner
 from drapery.packs import Packs
 from drapery.pictures import face_pixels
 from drapery.render import draw_scene, png_bytes
@@ -30,21 +29,10 @@ def face_png(banner: Banner, packs: Packs, scale: int = FACE_SCALE) -> bytes:
     return png_bytes(face_pixels(banner, packs, scale, kind=banner.kind))
 
 
-def face_address(
-    document: Document, banner: Banner, scale: int = FACE_SCALE, pack: str = "now"
-) -> str:
-    """The address of the flat face of any design, from the page's address.
-
-    pack: the tab's packs as they are `now`, its `own` art alone, or the number of one of its packs.
-    """
-    words = {"design": write_banner(banner, "shorthand"), "kind": banner.kind, "scale": scale}
-    return f"design/{document.token}.png?{urlencode(words | _packs(document, pack))}"
-
-
 def face_files(document: Document, pack: str = "now") -> dict[str, str]:
     """The addresses of what the page's editor draws faces of, by the kind of design.
 
-    pack: as in `face_address`.
+    pack: the tab's packs as they are `now`, its `own` art alone, or the number of one of its packs.
     """
     words = urlencode(_packs(document, pack))
     return {kind: f"faces/{document.token}/{kind}.bin?{words}" for kind in ("banner", "shield")}

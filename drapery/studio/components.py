@@ -94,6 +94,7 @@ EDITOR_TEXTS = {
     "untitled": "Untitled",
     "titleOf": "Title of the design",
     "history": "History",
+    "missing": "{name} is in none of the packs: the game shows a checker. Add its pack.",
     "step": "Step {number}: {design}",
     "compare": "Compare designs",
     "compareHint": "Keep the design as it is now, or choose an earlier one. Then edit, or open"

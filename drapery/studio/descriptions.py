@@ -1,22 +1,12 @@
 """Designs, dyes and patterns for labels, tooltips and screen readers."""
 
-from drapery.banner import PATTERNS
 from drapery.option import Option
-from drapery.studio.sketch import Sketch
 from drapery.studio.translation import translated
 
 
 def dye_title(dye: str) -> str:
     """The dye's title: "Light blue" for `light_blue`."""
     return translated(dye.replace("_", " ").capitalize())
-
-
-def pattern_title(pattern: str) -> str:
-    """The pattern's name in the game; for a pattern of a data pack, the end of its path."""
-    known = PATTERNS.get(pattern)
-    if known is not None:
-        return translated(known.title)
-    return pattern.partition(":")[2].rpartition("/")[2].replace("_", " ").capitalize() or pattern
 
 
 def view_title(view: str) -> str:
@@ -46,19 +36,6 @@ def choice_titles(option: Option) -> dict[str, str]:
     """The choices of an option as text with their titles; "" for None, if it may be None."""
     titles = {str(name): str(name).replace("-", " ") for name in option.choices}
     return {"": option.default_text} | titles if titles and option.default is None else titles
-
-
-def described(sketch: Sketch) -> str:
-    """The design in one sentence, lowest layer first."""
-    layers = [
-        f"{dye_title(stroke.dye).lower()} {pattern_title(stroke.pattern)}"
-        for stroke in sketch.strokes
-        if not stroke.hidden
-    ]
-    field = translated(f"{{dye}} {sketch.kind}").format(dye=dye_title(sketch.base))
-    if not layers:
-        return field
-    return translated("{design} with {layers}").format(design=field, layers=", ".join(layers))
 
 
 def named(name: str, description: str) -> str:

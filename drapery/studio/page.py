@@ -16,7 +16,6 @@ from drapery import DraperyError, Settings
 from drapery.banner import parse_banner
 from drapery.studio.art import face_files
 from drapery.studio.components import add_first_view, editor_part, viewer_address
-from drapery.studio.descriptions import described
 from drapery.studio.line_icons import line_icon
 from drapery.studio.notices import show_notice
 from drapery.studio.panels import bar, shortcuts
@@ -53,7 +52,7 @@ class PagePanel:
 
 PANELS = (
     PagePanel("palette", "Dyes", "left", part="dyes"),
-    PagePanel("layers", "Layers", "left", "Design"),
+    PagePanel("layers", "Layers", "left", "Design", "layers"),
     PagePanel("live", "Live", "viewport"),
     PagePanel("face", "Flat", "viewport"),
     PagePanel("steps", "History", "under", "Design", "steps"),
@@ -178,10 +177,7 @@ def _resume(session: Session, sessions: Sessions, token: object) -> None:
 
 
 def _write_into_address(session: Session) -> None:
-    """Write the design into the page's address, so that it survives a reload or a step back.
-
-    The title of the tab is the design's, or its description.
-    """
+    """Write the design into the page's address, so that it survives a reload or a step back."""
     client = ui.context.client
 
     def write() -> None:
@@ -192,11 +188,6 @@ def _write_into_address(session: Session) -> None:
         name = "" if sketch == plain else str(sketch.origin or session.token)
         client.run_javascript(f'studio.writeAddress("{link}", "{name}")')
 
-    def name_tab() -> None:
-        with client:
-            ui.page_title(f"{session.sketch.title or described(session.sketch)} - Drapery Studio")
-
-    session.follow(name_tab, "sketch")
     session.listen(write, "sketch", "settings")
 
 

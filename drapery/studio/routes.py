@@ -5,7 +5,6 @@ Every address holds the token of an open session; no part of an address is a fil
 
 import gzip
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
 from typing import Annotated, Literal
@@ -17,10 +16,9 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
 from drapery import DesignError, DraperyError, OptionError
-from drapery.banner import parse_banner
 from drapery.file_formats import KIND_NAMES, format_of
 from drapery.packs import Packs, open_packs
-from drapery.studio.art import face_png, pattern_names, style_png
+from drapery.studio.art import pattern_names, style_png
 from drapery.studio.components import viewer_module
 from drapery.studio.kernel_build import KernelBuild
 from drapery.studio.played import SceneFile, kernel_file, scene_file
@@ -65,18 +63,6 @@ SessionOf = Callable[[str], Session]
 
 
 def _add_pictures(app: FastAPI, session_of: SessionOf) -> None:
-    @app.get("/design/{token}.png")
-    def design(
-        token: str, design: Text, kind: Literal["banner", "shield"], scale: Scale, pack: str = "now"
-    ) -> Response:
-        session = session_of(token)
-
-        def draw() -> bytes:
-            banner = replace(parse_banner(design, form="shorthand"), kind=kind)
-            return face_png(banner, _packs(session, pack), scale)
-
-        return _picture(session, draw)
-
     @app.get("/faces/{token}/{kind}.bin")
     def faces(token: str, kind: Literal["banner", "shield"], pack: str = "now") -> Response:
         session = session_of(token)

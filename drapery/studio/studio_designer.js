@@ -1,9 +1,11 @@
 // The design of the page: the designer's editor in the studio's places. An edit is made and drawn here, and the
 // server is told of it.
 
+import { readDesign } from "../web/component/design.js";
 import { HIDDEN, drawPixels, iconButton, kept, make } from "../web/designer/dom.js";
 import { Editor } from "../web/designer/editor.js";
 import { History, shownOf, workOf, writeShorthand } from "../web/designer/model.js";
+import { TITLES } from "../web/designer/tables.js";
 import { Comparison, KINDS, PackComparison, readFaces } from "./comparisons.js";
 
 const KEPT = "drapery-history"; // the key of the history in the browser's storage
@@ -30,6 +32,7 @@ export class StudioDesigner {
     Object.assign(this.editor, { language, words, chosen: design.layers.length ? null : "field" });
     Object.assign(this, { comparison: new Comparison(this), packComparison: new PackComparison(this) });
     document.querySelector(".studio").addEventListener("act", (event) => this.act(event.detail));
+    new MutationObserver(() => this.drawButtons(":not([width])")).observe(document.querySelector(".studio"), { childList: true, subtree: true });
     // A file that was sent is known to the server again once it has heard of the earlier session.
     const isSent = Object.values(this.editor.work.motion.shown ?? {}).some((each) => /[\\/]/.test(each));
     Promise.all([this.redraw(faces), isSent && window.studio.whole()]).then(() => this.announce());
@@ -57,6 +60,18 @@ export class StudioDesigner {
     if (names !== this.names || !editor.controls) this.build();
     this.names = names;
     editor.show();
+    this.drawButtons();
+  }
+
+  // Draw the designs of buttons, which the server adds, and name these.
+  drawButtons(which = "") {
+    for (const canvas of document.querySelectorAll(`[data-face]${which}`)) {
+      const design = readDesign(canvas.dataset.face);
+      const faces = this.editor.every[design.kind];
+      if (faces) drawPixels(canvas, faces.small.face(design));
+      canvas.parentElement.title = [canvas.dataset.label, this.described(design)].filter(Boolean).join(": ");
+      canvas.parentElement.ariaLabel = canvas.parentElement.title;
+    }
   }
 
   build() {
@@ -69,12 +84,14 @@ export class StudioDesigner {
       onblur: () => this.show(),
     });
     this.other = make("canvas", HIDDEN);
+    this.missing = make("p", { class: "warning", role: "status", hidden: true });
+    this.news = make("p", { class: "unseen", role: "status" });
     this.strip = make("div", { class: "steps-strip", role: "group", "aria-label": say("history") });
     const fresh = iconButton("plus", say("new"), () => this.act("new"));
     const placed = {
       tools: [parts.undo, parts.redo, fresh, parts.random, parts.clear, parts.kind],
-      dyes: parts.dyes, layers: [this.title, ...parts.layers, parts.status], patterns: parts.patterns ?? [],
-      loom: [make("h2", {}, say("loom")), parts.loom], face: [parts.flat], other: [this.other], steps: [this.strip],
+      dyes: parts.dyes, layers: [this.missing, this.title, ...parts.layers, parts.status], patterns: parts.patterns ?? [],
+      loom: [make("h2", {}, say("loom")), parts.loom], face: [parts.flat, this.news], other: [this.other], steps: [this.strip],
       compare: this.comparison.nodes,
     };
     for (const [name, nodes] of Object.entries(placed)) document.querySelector(`[data-part="${name}"]`)?.replaceChildren(...nodes);
@@ -125,10 +142,15 @@ export class StudioDesigner {
   }
 
   show() {
-    const { work, every } = this.editor;
+    const { work, every, faces, say } = this.editor;
     if (document.activeElement !== this.title) this.title.value = work.title;
     const other = every[OTHER_KIND[work.kind]];
     if (other) drawPixels(this.other, other.face(shownOf(work)));
+    document.title = `${this.titleOf(work)} - Drapery Studio`;
+    this.news.textContent = this.described(work);
+    const added = new Set(work.layers.map(({ pattern }) => pattern).filter((name) => !Object.hasOwn(TITLES, name)));
+    this.missing.textContent = faces ? [...added].filter((name) => !faces.patterns.includes(name)).map((name) => say("missing", { name })).join(" ") : "";
+    this.missing.hidden = !this.missing.textContent;
     this.showSteps();
     this.comparison.show();
     this.packComparison.show();
@@ -171,7 +193,7 @@ export class StudioDesigner {
   described(work) {
     const { dyeTitle, caption, say } = this.editor;
     const layers = shownOf(work).layers.map(({ pattern, dye }) => say("layerIn", { pattern: caption(pattern), dye: dyeTitle(dye) }));
-    return [dyeTitle(work.base), ...layers].join("; ");
+    return `${say(work.kind)}: ${[dyeTitle(work.base), ...layers].join("; ")}`;
   }
 
   titleOf = (work) => work.title || this.described(work);

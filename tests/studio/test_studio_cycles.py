@@ -13,12 +13,11 @@ from studio_browser import Studio, wait_until
 from studio_tabs import open_tab
 
 CYCLES = int(os.environ.get("DRAPERY_STUDIO_CYCLES", "6"))
-FACE = "design=white&kind=banner&scale=2"
 
 
 def status(studio: Studio, token: str) -> int:
     try:
-        address = f"{studio.address}design/{token}.png?{FACE}"
+        address = f"{studio.address}faces/{token}/banner.bin"
         return urllib.request.urlopen(address, timeout=10).status
     except urllib.error.HTTPError as error:
         return error.code

@@ -17,9 +17,7 @@ from drapery.studio.art import (
     style_png,
 )
 from drapery.studio.pack_store import PackContents
-from drapery.studio.panels.layers import missing_patterns
 from drapery.studio.session import Session
-from drapery.studio.sketch import sketch_of
 
 NAMES = ("creeper", "border", "gradient")
 
@@ -80,14 +78,6 @@ def test_no_pack_is_read_before_the_page_is_there(tmp_path: Path) -> None:
     (entry,) = session.pack_store.entries
     assert entry.contents == PackContents()
     assert session.pack_store.contents_as(None) == {entry.number: PackContents("Patterns: 1")}
-    session.close()
-
-
-def test_a_pattern_that_no_pack_has_is_named_beside_the_layers() -> None:
-    session = Session()
-    session.lay_out(sketch_of(Banner.parse("red acme:anvil:lime creeper:blue")))
-    (line,) = missing_patterns(session)
-    assert line.startswith("acme:anvil is in none of the packs")
     session.close()
 
 

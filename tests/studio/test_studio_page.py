@@ -362,7 +362,7 @@ def test_nothing_is_loaded_from_elsewhere(page: Any, studio: Studio) -> None:
 
 
 def test_a_closed_tab_ends_its_session(page: Any, studio: Studio) -> None:
-    address = find(page, ".own-design img").get_attribute("src")
+    address = find(page, "link[href^=faces]").get_property("href")
     assert _status(address) == 200
     page.get("about:blank")
     wait_until(lambda: _status(address) == 404)

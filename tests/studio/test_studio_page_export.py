@@ -414,9 +414,6 @@ def fetch(
         connection.close()
 
 
-FACE = "design=red&kind=banner&scale=2"
-
-
 def test_an_address_reads_only_its_own_files(page: Page) -> None:
     token, secret = page.token, page.studio.folder / "secret.txt"
     secret.write_text("secret words")
@@ -438,15 +435,14 @@ def test_an_address_reads_only_its_own_files(page: Page) -> None:
             f"/export/{step}/1",
             f"/library/{token}/{step}/secret.txt",
             f"/library/{step}",
-            f"/design/{token}.png?{FACE}&pack={step}",
             f"/faces/{token}/banner.bin?pack={step}",
-            f"/design/{step}.png?{FACE}&pack=own",
+            f"/faces/{step}/banner.bin?pack=own",
             f"/{step}/secret.txt",
         ):
             status, body = fetch(page.studio, "GET", path.replace(" ", "%20"))
             assert status in (400, 404, 405, 422), path
             assert b"secret words" not in body and b"root:" not in body
-    for path in ("/export/x/1", "/library/x", f"/design/x.png?{FACE}"):
+    for path in ("/export/x/1", "/library/x", "/faces/x/banner.bin"):
         assert fetch(page.studio, "GET", path)[0] == 404
     for number in ("0", "1", "-1", "99999999999999999999", "1e3"):
         assert fetch(page.studio, "GET", f"/export/{token}/{number}")[0] in (404, 422)
@@ -454,7 +450,7 @@ def test_an_address_reads_only_its_own_files(page: Page) -> None:
         assert fetch(
             page.studio,
             "GET",
-            f"/design/{token}.png?{FACE}&pack={quote(pack)}",
+            f"/faces/{token}/banner.bin?pack={quote(pack)}",
         )[0] in (404, 422)
 
 

@@ -77,9 +77,11 @@ def test_two_designs_are_compared_by_a_slider(page: Any) -> None:
     drawn = f"return [...{box}.querySelectorAll('canvas')].map((each) => each.toDataURL())"
     wait_until(lambda: len(set(page.execute_script(drawn))) == 2)
     label = f"return {box}.querySelector('input').ariaLabel"
-    assert page.execute_script(label) == "Left: your design now. Right: White"
+    assert page.execute_script(label) == "Left: your design now. Right: Banner: White"
     choices = "return [...document.querySelectorAll('#panel-compare option')].map((e) => e.text)"
-    assert page.execute_script(choices) == ["nothing", "1: White", "2: White; Creeper, Black"]
+    assert page.execute_script(choices) == [
+        *("nothing", "1: Banner: White", "2: Banner: White; Creeper, Black"),
+    ]
     click(page, "[data-act=kind]")
     wait_until(lambda: "shield" in value(page, "written"))
     assert len(set(page.execute_script(drawn))) == 2

@@ -108,13 +108,6 @@ def press_with(page: Any, held: str, key: str) -> None:
     ActionChains(page).key_down(held).send_keys(key).key_up(held).perform()
 
 
-def loaded(page: Any, selector: str) -> bool:
-    """Whether there are such pictures and all of them have arrived."""
-    script = "return [...document.querySelectorAll(arguments[0])].map((i) => i.naturalWidth)"
-    widths = page.execute_script(script, selector)
-    return bool(widths) and all(widths)
-
-
 def test_a_pirate_flag(page: Any) -> None:
     click(page, "[data-dye=black]")
     search = find(page, ".panel-patterns input")
@@ -151,7 +144,7 @@ def test_a_word(page: Any) -> None:
     banners = letter_banners("GO 4", ink="red")
     commands = "\n".join(write_banner(each, "give") for each in banners)
     wait_until(lambda: value(page, "letters-text") == commands)
-    wait_until(lambda: loaded(page, ".letters:not(.candidates) img"))
+    wait_until(lambda: page.find_elements("css selector", ".letters canvas[width]"))
     click(page, ".letters:not(.candidates) .found:nth-child(2)")
     wait_until(lambda: value(page, "written") == write_banner(banners[1], "give"))
 
@@ -199,7 +192,7 @@ def test_a_pattern_of_a_pack(page: Any, tmp_path: Path) -> None:
     assert summary.get_property("scrollWidth") <= summary.get_property("clientWidth")
     assert summary.text.endswith("masks)")
     click(page, "button[aria-label='Remove: acme.zip']")
-    line = "acme:anvil is in none of the packs"
+    line = "acme:anvil is in none of the packs: the game shows a checker. Add its pack."
     wait_until(lambda: line in text(page, "#panel-layers .warning"))
 
 
@@ -224,7 +217,9 @@ def test_all_banners_of_a_schematic(page: Any) -> None:
     cells = {(n, 1, 0): (block_id(each), entity(each)) for n, each in enumerate(banners)}
     drop(page, "hall.schem", nbt_file(schem(2, (3, 2, 1), cells), "Schematic"))
     wait_until(lambda: len(page.find_elements("css selector", "#panel-text .found")) == 3)
-    wait_until(lambda: loaded(page, "#panel-text .found img"))
+    wait_until(
+        lambda: len(page.find_elements("css selector", "#panel-text .found canvas[width]")) == 3
+    )
     assert text(page, "#panel-text .found") == "hall.schem block 0,1,0"
     for place, design in enumerate(designs):
         page.find_elements("css selector", "#panel-text .found")[place].click()
@@ -354,3 +349,15 @@ def test_with_the_keyboard_alone(page: Any) -> None:
     press(page, Keys.ENTER)
     wait_until(find(page, "#panel-export .export-link").is_displayed)
     walk_to(page, "#panel-export .export-link")
+
+
+def test_designs_on_buttons_follow_the_packs_in_place(page: Any, tmp_path: Path) -> None:
+    face = "document.querySelector('[data-own=Slime] canvas')"
+    before = wait_until(lambda: page.execute_script(f"return {face}?.toDataURL()"))
+    page.execute_script(f"window.before = {face}")
+    label = page.execute_script(f"return {face}.parentElement.ariaLabel")
+    assert label.startswith("Slime: Banner: ")
+    files = {META: mcmeta(), CREEPER: plain(0, 0, 255, 255)}
+    drop(page, "blue.zip", zip_pack(tmp_path / "blue.zip", files).read_bytes())
+    wait_until(lambda: page.execute_script(f"return {face}.toDataURL()") != before)
+    assert page.execute_script(f"return window.before === {face}")

@@ -12,7 +12,6 @@ from drapery.banner.design import MAX_LAYERS, Layer
 from drapery.banner.dyes import DYE_NAMES
 from drapery.banner.patterns import PATTERN_NAMES
 from drapery.errors import DesignError, OptionError, PackError
-from drapery.studio.descriptions import described
 from drapery.studio.session import MAX_SESSIONS, Session, Sessions
 from drapery.studio.sketch import (
     MAX_ORIGIN,
@@ -146,11 +145,3 @@ def test_a_shield_is_not_on_a_wall() -> None:
     session.take(Sketch(kind="shield"))
     assert session.settings.placement == "standing" and session.settings.facing is None
     session.close()
-
-
-def test_a_design_is_described() -> None:
-    assert (
-        described(THREE)
-        == "White banner with lime Creeper Charge, black Bordure, red Flower Charge"
-    )
-    assert described(Sketch("light_blue", kind="shield")) == "Light blue shield"

@@ -7,11 +7,11 @@ from nicegui import ui
 
 from drapery.banner import DYE_NAMES, letter_banners, write_banner
 from drapery.studio.descriptions import dye_title
-from drapery.studio.design_buttons import DesignButton, DesignList
+from drapery.studio.design_buttons import DesignButton
 from drapery.studio.panels.fields import Fields, copy_field
 from drapery.studio.session import Session
 from drapery.studio.translation import translated
-from drapery.studio.widgets import translated_text
+from drapery.studio.widgets import KeptElements, translated_text
 
 MAX_WORD = 40
 """The most characters of a word on the page."""
@@ -44,7 +44,7 @@ def build(session: Session) -> None:
         fields.choice("Border", borders, lambda: chosen["border"] or "", border)
     row = ui.element("div").classes("letters").props("role=group")
     row.props["aria-label"] = translated("Letters")
-    letters = DesignList(row)
+    letters: KeptElements[DesignButton] = KeptElements(row)
     written = copy_field("letters-text", "The commands of the letters", 4)
 
     def show() -> None:
@@ -57,4 +57,4 @@ def build(session: Session) -> None:
         )
         written("\n".join(write_banner(banner, "give") for banner in banners))
 
-    session.follow(show, "packs")
+    show()

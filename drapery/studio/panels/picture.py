@@ -24,16 +24,14 @@ from drapery.match import (
     read_pixels,
 )
 from drapery.packs import Packs
-from drapery.studio.descriptions import described
-from drapery.studio.design_buttons import DesignButton, DesignList
+from drapery.studio.design_buttons import DesignButton
 from drapery.studio.file_field import FileField
 from drapery.studio.notices import errors_shown
 from drapery.studio.panels.fields import Fields
 from drapery.studio.photo_corners import Corner, PhotoCorners
 from drapery.studio.session import Session
-from drapery.studio.sketch import sketch_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import text_element, translated_text
+from drapery.studio.widgets import KeptElements, text_element, translated_text
 
 COUNT = 6
 """The most candidates."""
@@ -118,7 +116,7 @@ def build(session: Session) -> None:
     photo = PhotoCorners(take_corners)
     row = ui.element("div").classes("letters candidates").props('role="group"')
     row.props["aria-label"] = translated("Candidates")
-    candidates = DesignList(row)
+    candidates: KeptElements[DesignButton] = KeptElements(row)
 
 
 def _read(path: Path, name: str) -> Texels:
@@ -151,11 +149,12 @@ def closeness(match: Match) -> str:
     return next((words for most, words in CLOSENESS.items() if match.error <= most), "similar")
 
 
-def _show(session: Session, candidates: DesignList, matches: tuple[Match, ...]) -> None:
+def _show(
+    session: Session, candidates: KeptElements[DesignButton], matches: tuple[Match, ...]
+) -> None:
     def candidate(number: int, match: Match) -> DesignButton:
-        words = f"{number}: {described(sketch_of(match.banner))}"
         text = translated(closeness(match))
-        return DesignButton(session, "found", match.banner, label=words, text=text, side=50)
+        return DesignButton(session, "found", match.banner, label=str(number), text=text, side=50)
 
     numbered = enumerate(matches, 1)
     candidates.show(

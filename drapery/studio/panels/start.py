@@ -7,14 +7,14 @@ from functools import partial
 from nicegui import ui
 
 from drapery.settings import Settings
-from drapery.studio.design_buttons import DesignButton, DesignList
+from drapery.studio.design_buttons import DesignButton
 from drapery.studio.design_catalogue import EXAMPLES, OwnDesign, groups, own_designs
 from drapery.studio.notices import errors_shown
 from drapery.studio.session import Session
 from drapery.studio.share import write_link
 from drapery.studio.sketch import Sketch, banner_of
 from drapery.studio.translation import translated
-from drapery.studio.widgets import button, hint, translated_text
+from drapery.studio.widgets import KeptElements, button, hint, translated_text
 
 
 def build(session: Session) -> None:
@@ -52,7 +52,7 @@ def _recent(session: Session) -> None:
         with errors_shown():
             cards.show({write_link(*each): partial(card, *each) for each in session.recent})
 
-    cards = DesignList(row)
+    cards: KeptElements[DesignButton] = KeptElements(row)
     session.follow(show, "recent")
 
 
@@ -73,16 +73,8 @@ def build_examples(session: Session) -> None:
 
 
 def _designs(session: Session, designs: Sequence[OwnDesign]) -> None:
-    row = ui.element("div").classes("own-designs")
-
-    def card(design: OwnDesign) -> DesignButton:
-        name = design.title
-        card = DesignButton(session, "own-design", design.banner, text=name, title=name)
-        card.props["data-own"] = name
-        return card
-
-    def show() -> None:
-        cards.show({each.title: partial(card, each) for each in designs})
-
-    cards = DesignList(row)
-    session.follow(show, "packs")
+    with ui.element("div").classes("own-designs"):
+        for each in designs:
+            name = each.title
+            card = DesignButton(session, "own-design", each.banner, text=name, title=name)
+            card.props["data-own"] = name

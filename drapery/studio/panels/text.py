@@ -7,7 +7,6 @@ from nicegui import context, ui
 from nicegui.element import Element
 
 from drapery import Banner
-from drapery.studio.art import face_address
 from drapery.studio.design_buttons import DesignButton
 from drapery.studio.file_field import FileField
 from drapery.studio.notices import ADDED, called_in_thread, show_notice
@@ -103,8 +102,7 @@ def _choices(session: Session, upload_queue: UploadQueue) -> dict[Hashable, Call
     wanted: dict[Hashable, Callable[[], Element]] = {"save": partial(save, text="Save all")}
     for number, found in enumerate(upload_queue.found[:MAX_FOUND], 1):
         place = _shortened(found.where) or f"{translated('Banner')} {number}"
-        face = face_address(session, found.banner, 2)  # it changes with the packs
-        wanted[number, place, found.banner, face] = partial(choice, place, found.banner)
+        wanted[number, place, found.banner] = partial(choice, place, found.banner)
     if (count := len(upload_queue.found)) > MAX_FOUND:
         wanted["more", count] = partial(hint, f"The first {MAX_FOUND} of {count}.")
     return wanted
