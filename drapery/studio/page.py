@@ -20,13 +20,13 @@ from drapery.studio.line_icons import line_icon
 from drapery.studio.notices import show_notice
 from drapery.studio.panels import bar, shortcuts
 from drapery.studio.played import known_kernels
-from drapery.studio.session import Session, Sessions
+from drapery.studio.session import MAX_RECENT, Session, Sessions
 from drapery.studio.share import opened_link, write_link
 from drapery.studio.sketch import Sketch, sketch_of
 from drapery.studio.translation import language, translated
 from drapery.studio.warning_log import collected_warnings
 from drapery.studio.widgets import on, set_props, translated_text
-from drapery.web.bundle import WEB
+from drapery.web.bundle import WEB, bundled_module
 
 Place = Literal["left", "viewport", "under", "side"]
 Group = Literal["Design", "Bring in", "Get out", "Library"]
@@ -138,6 +138,7 @@ def build(session: Session, sessions: Sessions) -> None:
         session.language = root.props["data-language"] = language()
         root.props["data-copied"] = translated("Copied")
         root.props["data-lost"] = translated("The connection is lost. Trying again …")
+        root.props["data-recent"] = MAX_RECENT
         root.props["data-drop"] = translated("Drop it to read its banners")
         with ui.element("header").classes("bar"):
             bar.build(session)
@@ -197,7 +198,7 @@ def _head(session: Session) -> None:
     ui.add_head_html(f"<style>@layer components {{ {_PARTS} {{ {editor} }} }}</style>")
     for sheet in sorted(_FOLDER.glob("*.css")):
         ui.add_head_html(f"<style>{sheet.read_text()}</style>")
-    ui.add_head_html(f'<script type="module">{(_FOLDER / "studio.js").read_text()}</script>')
+    ui.add_head_html(f'<script type="module">{bundled_module(_FOLDER / "studio.js", ())}</script>')
     # What plays the cloth comes beside the page's framework, not after it.
     ui.add_head_html(f'<link rel="modulepreload" href="{viewer_address()}">')
     scenes = session.viewport.shown["scenes"]

@@ -21,8 +21,6 @@ MAX_TAG = 32
 MAX_THUMBNAIL = 64 << 10
 """The largest PNG file of a thumbnail [bytes]."""
 MAX_THUMBNAIL_SIDE = 256
-MAX_IMPORT = 64 << 20
-"""The largest JSON export of a library [bytes]."""
 
 _MARK = "drapery_library"
 
@@ -136,8 +134,6 @@ def _exported(design: Design) -> dict[str, Any]:
 
 def read_designs(data: bytes) -> list[Design]:
     """All designs of such a file. Raises DesignError, naming the design that is broken."""
-    if len(data) > MAX_IMPORT:
-        raise DesignError(f"the file is over {MAX_IMPORT >> 20} MiB; a library is smaller")
     try:
         whole = json.loads(data)
     except (ValueError, RecursionError):

@@ -1,4 +1,7 @@
 // What the page does without the server: tabs, theme, shortcuts, copying, dropped files.
+
+import { kept } from "../web/designer/storage.js";
+
 const WIDE = window.matchMedia("(min-width: 1000px)");
 const FIELDS = "input:not([type=range], [type=checkbox], [type=radio]), textarea, select, [contenteditable=true], [role=combobox], [role=listbox]";
 const root = () => document.querySelector(".studio");
@@ -22,15 +25,6 @@ function earlierSession() {
   return kept(() => history.state?.session ?? (type === "reload" && JSON.parse(sessionStorage.getItem("drapery-history"))?.token));
 }
 
-// What a browser may refuse; null where it does.
-function kept(use) {
-  try {
-    return use();
-  } catch {
-    return null;
-  }
-}
-
 // Tell the server, in order, once the whole page is there.
 const whole = new Promise((resolve) => {
   const waiting = setInterval(() => {
@@ -52,13 +46,11 @@ const store = {
 };
 
 // The latest designs of this browser, so that a closed tab loses none. name: one for each design.
-const MAX_RECENT = 12;
-
 const recent = () => [store.get("recent") ?? []].flat();
 
 function remember(name, link) {
   const others = recent().filter((each) => each.name !== name && each.link !== link);
-  store.set("recent", [{ name, link }, ...others].slice(0, MAX_RECENT));
+  store.set("recent", [{ name, link }, ...others].slice(0, root().dataset.recent));
 }
 
 // The design in the address. Browsers limit the changes per second, so repeat the last one later.

@@ -2,9 +2,10 @@
 // server is told of it.
 
 import { readDesign } from "../web/component/design.js";
-import { HIDDEN, drawPixels, iconButton, kept, make } from "../web/designer/dom.js";
+import { HIDDEN, drawPixels, iconButton, make } from "../web/designer/dom.js";
 import { Editor } from "../web/designer/editor.js";
 import { History, shownOf, workOf, writeShorthand } from "../web/designer/model.js";
+import { kept } from "../web/designer/storage.js";
 import { TITLES } from "../web/designer/tables.js";
 import { Comparison, KINDS, PackComparison, readFaces } from "./comparisons.js";
 

@@ -38,9 +38,11 @@ _DESIGN_ENDINGS = frozenset(
     )
 )
 
+MAX_LIBRARY = 64 << 20
+"""The largest JSON export of a library [bytes]."""
 PURPOSES = {
     "pack": Purpose(256 << 20, 16),
-    "library": Purpose(64 << 20, 1),
+    "library": Purpose(MAX_LIBRARY, 1),
     "garment": Purpose(1 << 16, 1, frozenset((".toml",))),
     "skin": Purpose(4 << 20, 1, frozenset((".png",))),
     "picture": Purpose(64 << 20, 2, frozenset(endings_read(PICTURE_FORMATS))),

@@ -77,16 +77,6 @@ export function roving(holder, items, isList = false) {
   });
 }
 
-/** What the browser keeps; null where it keeps nothing.
- * @template T @param {() => T} use @returns {T | null} */
-export function kept(use) {
-  try {
-    return use();
-  } catch {
-    return null;
-  }
-}
-
 /** Draw a picture into a canvas, which gets its size.
  * @param {HTMLCanvasElement} canvas @param {ImageData} picture */
 export function drawPixels(canvas, picture) {

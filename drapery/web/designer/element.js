@@ -8,12 +8,13 @@ import { fileBytes } from "../component/shared.js";
 import { TABLES } from "../component/tables.js";
 import { FormError, VERSIONS, notKept, plainText, writeCommand } from "./commands.js";
 import { menu, numberField, segments } from "./controls.js";
-import { drawPixels, icon, kept, make } from "./dom.js";
+import { drawPixels, icon, make } from "./dom.js";
 import { ENGLISH, Editor } from "./editor.js";
 import { Faces } from "./faces.js";
 import { MOTION, History, shownOf, workOf, writeHash, writeShorthand } from "./model.js";
 import { readPack } from "./pack.js";
 import { readHash, readPasted } from "./pasted.js";
+import { kept } from "./storage.js";
 import { LANGUAGES, STYLES } from "./tables.js";
 import { DraperyWearer, readSkin, sheetWith } from "./wearer.js";
 
