@@ -110,6 +110,12 @@ def test_too_long_stops_while_it_comes(session: Session, monkeypatch: pytest.Mon
     assert taken == 17 and [*session.folder.iterdir()] == []
 
 
+def test_a_library_that_is_sent_has_a_largest_size(session: Session) -> None:
+    data = bytes(module.MAX_LIBRARY + 1)
+    with pytest.raises(DesignError, match=r"^all\.json is over 64 MiB; send a smaller one$"):
+        send(session, data, "all.json", "library")
+
+
 def test_too_many_are_refused_also_at_once(
     session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
