@@ -13,7 +13,7 @@ class Slider {
   constructor(say) {
     this.say = say;
     this.faces = [0, 1].map(() => make("canvas", HIDDEN));
-    this.field = make("input", { type: "range", class: "slider", oninput: () => this.whole.style.setProperty("--cut", `${this.field.value}%`) });
+    this.field = make("input", { type: "range", class: "slider", "aria-label": say("design"), oninput: () => this.whole.style.setProperty("--cut", `${this.field.value}%`) });
     this.whole = make("div", { class: "versus-slider" }, make("div", { class: "versus-faces" }, ...this.faces), this.field);
   }
 
