@@ -100,6 +100,14 @@ SEEN = (
     Storm({}, CAPE | {"wind": 30.4, "fabric": "felt", "grid": (9, 9), "pins": "three-corners"}),
     Storm({}, CAPE | {"thickness": 2.0, "solver": "pbd", "grid": (5, 9), "wind": 0.0}),
     Storm({"player": {"wear": ("scarf",), "motion": "glide"}}, {"wind": 8.6, "direction": 180.0}),
+    Storm(
+        {"player": {"wear": ("skirt",), "motion": "sit", "speed": 1.0}},
+        {"solver": "implicit", "wind": 40.0, "gusts": 1.0, "direction": 90.0, "seed": 370},
+    ),
+    Storm(
+        {"garment": "freefall"},
+        {"solver": "desbrun", "wind": 40.0, "gusts": 2.0, "direction": 90.0, "seed": 209},
+    ),
 )
 """Settings that were seen to tear."""
 

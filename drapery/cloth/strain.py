@@ -12,12 +12,15 @@ springs are within the limit keeps its bits. In another one
    second sweep, which shortens long chains at once;
 2. if springs are still too long after some rounds of that, boxes are met anew without friction,
    which holds particles where their springs have to slide them along a box;
-3. if springs are still too long, and no box moves, all particles go back by the same part of their
-   way in the step, at whose start no spring was too long. Lengths are convex in the places of
-   particles, so each spring is held on the whole way there.
+3. if springs are still too long, and boxes move or the cloth begins in one, springs are shortened
+   from there without contact with boxes: the cloth enters them as far as its springs need, and no
+   farther;
+4. else all particles go back by the same part of their way in the step, at whose start no spring
+   was too long. Lengths are convex in the places of particles, so each spring is held on the whole
+   way there.
 
-The last cannot help where pins or colliders move the cloth apart; then `State.worst` and a
-warning say how far, where and when.
+The last cannot help where pins move the cloth apart; then `State.worst` and a warning say how far,
+where and when.
 """
 
 import math

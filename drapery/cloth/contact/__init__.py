@@ -54,8 +54,8 @@ What is exact, and what is not
   (`depth_at_pin`). Friction holds cloth but for a slow slide, as tension and
   contact take turns. The nearest point of an edge is found to 0.1 mm (`NEAREST`).
 - Not held: cloth between two boxes that move towards each other has no free place. It keeps its
-  limit of strain and enters a box (`without_boxes`). Cloth that pins pull apart stretches;
-  `State.worst` and a warning say so.
+  limit of strain and enters a box as far as that needs (`without_boxes`), and leaves it again as
+  far as that allows. Cloth that pins pull apart stretches; `State.worst` and a warning say so.
 
 Constants
 ---------

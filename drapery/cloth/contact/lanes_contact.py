@@ -105,17 +105,24 @@ def contact_work(
 @kernel
 def contact_of(boxes: Any, work: Any) -> BoxContact:
     """The contact with boxes at the poses in `work`."""
+    return with_boxes(boxes, work.starts, work.ends, boxes.friction)
+
+
+@kernel
+def with_boxes(contact: Any, starts: Any, ends: Any, friction: Any) -> BoxContact:
+    """The same contact with the first boxes, as many as there are poses, [K, 12], and another
+    friction of each, [K]."""
     return BoxContact(
-        work.starts,
-        work.ends,
-        boxes.halves,
-        boxes.friction,
-        boxes.radius,
-        boxes.reach,
-        boxes.edges,
-        boxes.triangles,
-        boxes.inv_mass,
-        boxes.bands,
+        starts,
+        ends,
+        contact.halves[: len(friction)],
+        friction,
+        contact.radius,
+        contact.reach,
+        contact.edges,
+        contact.triangles,
+        contact.inv_mass,
+        contact.bands,
     )
 
 
@@ -140,16 +147,18 @@ def resolve(work: Any, boxes: Any, itself: Any, limit: Any, careful: int) -> int
             return MET
         if longest_square(work.end, limit) > least:
             put_all(work.end, best)
-    if boxes_move(work):
-        # Between boxes that move towards each other is no free place: cloth enters them.
+    if boxes_move(work) or not begins_free(work, contact):
+        # Between boxes that move towards each other is no free place: cloth enters them. It leaves
+        # a box that it is in only as far as its springs allow.
         free = without_boxes(contact)
+        if is_held(work, itself, free, limit, STRAIN_ROUNDS):
+            return MET
         put_all(work.end, work.solved)
         if is_held(work, itself, free, limit, STRAIN_ROUNDS):
             return MET
         if go_back(work.start, work.end, limit):
             meet_one(work.start, work.end, itself, free, work.near, work.pairs)
-    elif begins_free(work, contact) and go_back(work.start, work.end, limit):
-        # Cloth that begins in a box has no way back.
+    elif go_back(work.start, work.end, limit):
         meet_one(work.start, work.end, itself, contact, work.near, work.pairs)
     return LONG if is_long(work.end, limit) else MET
 
@@ -176,35 +185,13 @@ def put_all(out: Any, x: Any) -> None:
 @kernel
 def without_friction(contact: Any) -> BoxContact:
     """The same boxes, along which cloth slides freely."""
-    return BoxContact(
-        contact.starts,
-        contact.ends,
-        contact.halves,
-        np.zeros(len(contact.friction)),
-        contact.radius,
-        contact.reach,
-        contact.edges,
-        contact.triangles,
-        contact.inv_mass,
-        contact.bands,
-    )
+    return with_boxes(contact, contact.starts, contact.ends, np.zeros(len(contact.friction)))
 
 
 @kernel
 def without_boxes(contact: Any) -> BoxContact:
     """No boxes, for the same cloth."""
-    return BoxContact(
-        contact.starts[:0],
-        contact.ends[:0],
-        contact.halves[:0],
-        contact.friction[:0],
-        contact.radius,
-        contact.reach,
-        contact.edges,
-        contact.triangles,
-        contact.inv_mass,
-        contact.bands,
-    )
+    return with_boxes(contact, contact.starts[:0], contact.ends[:0], contact.friction[:0])
 
 
 @kernel
