@@ -203,7 +203,8 @@ def test_the_link_brings_the_design_back(page: Page) -> None:
     assert again.text("#as-command") == (
         'drapery render "red creeper:lime border:black" -o lime-ghost.png --view hero'
     )
-    assert "Lime Creeper" in again.run("return document.querySelector('.face').ariaLabel").title()
+    said = again.run("return document.querySelector('.face .unseen').textContent")
+    assert said == "Banner: Red; Creeper, Lime; Border, Black"
 
 
 def test_a_bad_link_is_reported_and_the_page_continues(chromium: Any, studio: Studio) -> None:
