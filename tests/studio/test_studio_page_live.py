@@ -149,7 +149,7 @@ def test_a_point_of_the_cloth_follows_the_mouse(page: Any) -> None:
 def test_the_background_is_walked_round(page: Any) -> None:
     azimuth = ask(page, "azimuth()")
     hand = ActionChains(page)
-    hand.move_to_element_with_offset(canvas(page), *from_middle(page, (20, 300)))
+    hand.move_to_element_with_offset(canvas(page), *from_middle(page, (20, 240)))
     hand.click_and_hold().move_by_offset(100, 0).release().perform()
     assert ask(page, "azimuth()") == pytest.approx(azimuth - math.degrees(0.75), abs=1)
     assert ask(page, "input.pulling") is False
