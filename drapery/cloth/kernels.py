@@ -93,7 +93,7 @@ def bend(out: Any, x: Any, z: Any, stencils: Any, scale: Any, own: Any, other: A
 
 
 @borrowing_kernel
-def weighted(x: Any, rows: Any, w: Any, lane: Any) -> Any:
+def weighted(x: Any, rows: Any, w: Any, lane: Any) -> tuple[float, float, float]:
     """The sum of four particles by weights; rows: the first rows of their coordinates."""
     a, b, c, d = rows
     dx = w[0] * load(x, a, lane) + w[1] * load(x, b, lane) + w[2] * load(x, c, lane)
@@ -107,7 +107,7 @@ def weighted(x: Any, rows: Any, w: Any, lane: Any) -> Any:
 
 
 @borrowing_kernel
-def direction(x: Any, i: Any, j: Any, lane: Any) -> Any:
+def direction(x: Any, i: Any, j: Any, lane: Any) -> tuple[float, float, float]:
     """The vector from particle i to particle j; i and j are the first rows of their coordinates."""
     return (
         load(x, j, lane) - load(x, i, lane),
@@ -174,34 +174,34 @@ def gradient_noise(out: Any, at: Any, first: Any, cells: Any, seed: Any) -> None
         out[0, lane], out[1, lane], out[2, lane] = scale * p[0], scale * p[1], scale * p[2]
 
 
-@borrowing_kernel
+@kernel
 def below(x: Any) -> Any:
     """The floor of x. A loop with np.floor is not vectorised."""
     whole = type(x)(np.int32(x))
     return whole - type(x)(1) if whole > x else whole
 
 
-@borrowing_kernel
+@kernel
 def fade(x: Any) -> Any:
     """Perlin's fade, 6 x⁵ - 15 x⁴ + 10 x³."""
     F = type(x)
     return x * x * x * (x * (x * F(6) - F(15)) + F(10))
 
 
-@borrowing_kernel
+@kernel
 def spread(cell: Any, factor: Any) -> Any:
     """The hash bits of a cell's number along one axis."""
     return np.uint32(np.uint32(np.int32(cell)) * factor)
 
 
-@borrowing_kernel
+@kernel
 def xor_shifted(h: Any, places: Any) -> Any:
     """Bits combined with themselves shifted to the right."""
     return np.uint32(h ^ np.uint32(h >> places))
 
 
 @borrowing_kernel
-def corner(sums: Any, h: Any, weight: Any, x: Any, y: Any, z: Any) -> Any:
+def corner(sums: Any, h: Any, weight: Any, x: Any, y: Any, z: Any) -> tuple[float, float, float]:
     """The three sums plus the part of a corner: its gradient, from bits h, times its offset."""
     F = type(x)
     # The 32-bit finaliser of MurmurHash3 (Appleby 2011).
@@ -315,7 +315,7 @@ def add_wind_velocities(
 
 
 @borrowing_kernel
-def vector_area(x: Any, faces: Any, i: Any, lane: Any) -> Any:
+def vector_area(x: Any, faces: Any, i: Any, lane: Any) -> tuple[float, float, float]:
     """The vector area of the faces around particle i; see `faces.Faces`."""
     nx = ny = nz = fill(x.dtype.type(0))
     for side in range(faces.begin[i], faces.begin[i + 1]):

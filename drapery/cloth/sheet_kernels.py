@@ -20,9 +20,10 @@ leaves just the longest length."""
 
 
 @borrowing_kernel
-def lane_of(particle: Any, sheet: Any) -> Any:
+def lane_of(particle: Any, sheet: Any) -> int:
     """The lane of a particle."""
-    return particle // sheet.columns * sheet.width + particle % sheet.columns
+    lane: int = particle // sheet.columns * sheet.width + particle % sheet.columns
+    return lane
 
 
 @borrowing_kernel
@@ -42,7 +43,7 @@ def store_plane(x: Any, y: Any, cloth: Any, sheet: Any) -> None:
 
 
 @borrowing_kernel
-def directions(x: Any, a: Any, b: Any) -> Any:
+def directions(x: Any, a: Any, b: Any) -> tuple[float, float, float]:
     """The vectors from the lanes at a to those at b."""
     return (
         load(x, 0, b) - load(x, 0, a),
@@ -155,9 +156,9 @@ def bend(
 
 
 @borrowing_kernel
-def weighted(x: Any, axis: Any, n: Any, shifts: Any, w: Any, sign: Any) -> Any:
+def weighted(x: Any, axis: Any, n: Any, shifts: Any, w: Any, sign: Any) -> float:
     """The sum by weights of the lanes at the shifts from n, to the left if the sign is -1."""
-    total = w[0] * load(x, axis, n + sign * shifts[0])
+    total: float = w[0] * load(x, axis, n + sign * shifts[0])
     total = total + w[1] * load(x, axis, n + sign * shifts[1])
     total = total + w[2] * load(x, axis, n + sign * shifts[2])
     if w[3] != 0:

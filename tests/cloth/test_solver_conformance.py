@@ -211,7 +211,8 @@ def test_a_cloth_has_the_same_bits_in_a_crowd_as_alone(name: str, layout: str) -
     """On any number of threads, in one call or in many, on whatever it moves and wherever it is
     held."""
     cloth, count = layouts(name)[layout]
-    options: dict[str, Any] = {"angular": "none"} if layout.startswith("loose") else {}
+    is_loose = name == "desbrun" and layout.startswith("loose")  # the others correct no rotation
+    options: dict[str, Any] = {"angular": "none"} if is_loose else {}
     options |= HALVED.get(name, {})
     count, pinned = max(count, 3), np.flatnonzero(cloth.inv_mass == 0)
 

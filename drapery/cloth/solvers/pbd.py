@@ -240,7 +240,7 @@ def shorten_too_long(y: Any, attachments: Any, sweeps: Any, factors: Any) -> Non
 
 
 @borrowing_kernel
-def mark_too_long(factors: Any, y: Any, attachments: Any) -> Any:
+def mark_too_long(factors: Any, y: Any, attachments: Any) -> bool:
     """Factors: 1 for lanes with a pair over TOLERATED times its longest length, else BEYOND.
 
     Returns whether there is such a lane.
