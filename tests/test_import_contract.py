@@ -18,7 +18,7 @@ FOUNDATION = {
     *("errors", "elementary", "mesh", "option", "option_checks", "settings", "yaml_text", "jit"),
     *("arrays", "lazy", "toml_text", "player_settings", "version"),
     *("user_files", "picture_file", "picture_pixels", "mesh_file", "mesh_headers", "sqlite_faults"),
-    *("json_text", "model_faults", "file_formats", "output_files"),
+    *("json_text", "model_faults", "file_formats", "output_files", "module_process"),
 }
 CORE = {"cloth", "banner", "packs", "render", "style", "styles", "garments", "assets"}
 PICTURES = {"stage", "scenes", "pictures", "comparison", "sheets", "match"}
@@ -49,6 +49,7 @@ ALLOWED: dict[str, set[str]] = {
     "sqlite_faults": set(),
     "json_text": set(),
     "model_faults": set(),
+    "module_process": set(),
     "mesh_headers": {"errors", "json_text", "picture_file"},
     "mesh_file": {"arrays", "errors", "mesh", "mesh_headers", "user_files"},
     "assets": set(),

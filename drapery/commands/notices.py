@@ -79,9 +79,10 @@ def start_beside(names: str, words: list[str], call: bytes = b"") -> None:
     import subprocess  # it takes long to load
 
     from drapery.jit import compiled_beside
+    from drapery.module_process import module_command
 
     pipe, nowhere = subprocess.PIPE, subprocess.DEVNULL
-    command = [sys.executable, "-m", "drapery.jit.beside", *words]
+    command = module_command("drapery.jit.beside", *words)
     with suppress(OSError):  # it only saves time
         process = subprocess.Popen(command, stdin=pipe, stdout=nowhere, stderr=nowhere)
         assert process.stdin is not None

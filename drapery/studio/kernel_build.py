@@ -12,11 +12,12 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 
+from drapery.module_process import module_command
 from drapery.studio.session import Sessions
 from drapery.web.wasm.module import is_module_built
 
-COMMAND = sys.executable, "-m", "drapery.web.wasm.build", "--cache"
-FIRST = *COMMAND, "--only", "xpbdsheet"
+COMMAND = module_command("drapery.web.wasm.build", "--cache")
+FIRST = [*COMMAND, "--only", "xpbdsheet"]
 """What plays a banner with the studio's own settings."""
 BUILDING = "The live cloth is compiled once, which takes some minutes; until then it stands still."
 MISSING = (

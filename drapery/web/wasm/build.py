@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drapery.errors import DraperyError, counted
+from drapery.module_process import module_command
 from drapery.user_files import reason
 from drapery.web.wasm.image import WasmBuildError
 from drapery.web.wasm.module import module_places
@@ -39,7 +40,7 @@ def build_module(path: Path, methods: Sequence[str] = tuple(METHODS)) -> None:
         # Code that is optimised for 64-bit pointers, or comes from the cache, is of no use here.
         own = {"NUMBA_OPT": "0", "NUMBA_CACHE_DIR": folder, "NUMBA_NUM_THREADS": "1"}
         made = Path(folder) / "module.wasm"
-        command = [sys.executable, "-m", "drapery.web.wasm.compiling", str(made), *methods]
+        command = module_command("drapery.web.wasm.compiling", str(made), *methods)
         done = subprocess.run(command, env={**os.environ, **own}, stderr=subprocess.PIPE, text=True)
         if done.returncode:
             lines = done.stderr.strip().splitlines() or ["no reason is given"]
